@@ -20,7 +20,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
-from matplotlib.patches import FancyBboxPatch, PathPatch, Polygon, Rectangle
+from matplotlib.patches import Ellipse, FancyBboxPatch, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.textpath import TextPath
@@ -259,6 +259,32 @@ class Canvas:
             x, y, words, color=colour, ha=align, va="center_baseline", weight=weight
         )
 
+    def box(self, middle: Point, size: Point, radius: float, **look: Any) -> None:  # noqa: ANN401 - matplotlib's
+        """Draw a rectangle with rounded corners, which looks as matplotlib's patches do."""
+        corner = (middle[0] - size[0] / 2, middle[1] - size[1] / 2)
+        shape = f"round,pad=0,rounding_size={radius}"
+        self.axes.add_patch(FancyBboxPatch(corner, *size, shape, **{"zorder": 3, **look}))
+
+    def ellipse(self, middle: Point, size: Point, **look: Any) -> None:  # noqa: ANN401 - matplotlib's
+        """Draw an ellipse, which looks as matplotlib's patches do."""
+        self.axes.add_patch(Ellipse(middle, *size, zorder=3, **look))
+
+    def mark(
+        self,
+        x: float,
+        y: float,
+        look: theme.Style,
+        size: float,
+        rim: str = "",
+        width: float = 1.0,
+        layer: float = 4,
+        fill: str = "",
+    ) -> None:
+        """Draw one mark of `size` points, in its own colour where rim or fill have none."""
+        fill, rim = fill or look.colour, rim or look.colour
+        more: dict[str, Any] = {"mfc": fill, "mec": rim, "mew": width, "zorder": layer}
+        self.axes.plot([x], [y], look.marker, ms=size, **more)
+
     def time_axis(self, scale: TimeScale, bottom: float, top: float) -> None:
         """Draw rules from `bottom` to `top`, and the times below them."""
         for at in scale.ticks():
@@ -286,11 +312,9 @@ class Canvas:
         is_centred: bool = False,
     ) -> None:
         """Draw a rounded frame with its label on the upper edge, below everything else."""
-        look: dict[str, Any] = {"fc": theme.FRAME_FILL, "ec": theme.FRAME, "lw": 1.1, "zorder": 0.3}
-        look |= {"ec": theme.INK, "lw": 2.2} if strong else {}
-        box = "round,pad=0,rounding_size=10"
-        size = (right - left, top - bottom)
-        self.axes.add_patch(FancyBboxPatch((left, bottom), *size, boxstyle=box, **look))
+        edge, width = (theme.INK, 2.2) if strong else (theme.FRAME, 1.1)
+        middle, size = ((left + right) / 2, (bottom + top) / 2), (right - left, top - bottom)
+        self.box(middle, size, 10, fc=theme.FRAME_FILL, ec=edge, lw=width, zorder=0.3)
         x, align = ((left + right) / 2, "center") if is_centred else (left + FRAME_INDENT, "left")
         colour, weight = (theme.INK, "bold") if strong else (theme.MUTED, "normal")
         label = self.text(x, top, words, colour, align, weight)
@@ -422,8 +446,6 @@ def _draw_key_row(canvas: Canvas, row: Sequence[Entry], y: float) -> None:
         if look.dash:
             canvas.axes.plot(ends, [y, y], color=look.colour, ls=look.dash, lw=1.6)
         if look.marker:
-            inside = entry.fill or look.colour
-            middle = [x + (_KEY_MARK - 6) / 2]
-            canvas.axes.plot(middle, [y], look.marker, ms=6, mfc=inside, mec=look.colour)
+            canvas.mark(x + (_KEY_MARK - 6) / 2, y, look, 6, layer=2, fill=entry.fill)
         canvas.text(x + _KEY_MARK, y, entry.words)
         x += _entry_width(entry)

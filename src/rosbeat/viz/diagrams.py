@@ -10,9 +10,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
-from typing import Any
-
-from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
 
 from rosbeat.errors import PictureError, called_as
 from rosbeat.viz import theme
@@ -298,22 +295,15 @@ def _draw_box(canvas: Canvas, box: Box, at: Point, bright: bool) -> None:
     if box.kind == "text":
         x, align, weight = at[0] - box.size[0] / 2, "left", "normal"
     else:
-        canvas.axes.add_patch(_outline(box, at, bright))
+        fill, edge = _LOOKS[box.kind] if bright else (theme.CARD, theme.FRAME)
+        look = {"fc": fill, "ec": edge, "lw": 2.2 if bright else 1.1}
+        if box.kind == "node":
+            canvas.ellipse(at, box.size, **look)
+        else:
+            canvas.box(at, box.size, {"topic": 5, "program": 9}.get(box.kind, 1), **look)
     for rank, row in enumerate(rows):
         y = at[1] + ((len(rows) - 1) / 2 - rank) * line_height()
         canvas.text(x, y, row, theme.INK if bright else theme.MUTED, align, weight)
-
-
-def _outline(box: Box, at: Point, bright: bool) -> Patch:
-    width, height = box.size
-    fill, edge = _LOOKS[box.kind] if bright else (theme.CARD, theme.FRAME)
-    look: dict[str, Any] = {"fc": fill, "ec": edge, "lw": 2.2 if bright else 1.1, "zorder": 3}
-    if box.kind == "node":
-        return Ellipse(at, width, height, **look)
-    corner = (at[0] - width / 2, at[1] - height / 2)
-    radius = {"topic": 5, "program": 9}.get(box.kind, 1)
-    shape = f"round,pad=0,rounding_size={radius}"
-    return FancyBboxPatch(corner, width, height, shape, **look)
 
 
 # The same in words.

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Protocol, runtime_checkable
 
 from matplotlib.path import Path
 
@@ -31,11 +31,14 @@ _VALUES = 8
 _SENT = theme.Style(theme.BLUE, "s", "")
 _RECEIVED = theme.Style(theme.TAKEN, "o", "")
 _MESSAGE = theme.Style(theme.BLUE, "", "-")
-_LOST = theme.Style(theme.ALERT, "s", "")
-_EARLY = theme.Style(theme.MUTED, "D", "")
-_LATE = theme.Style(theme.MUTED, "s", "")
-_STRANGE = theme.Style(theme.PURPLE, "o", "")
 _OTHER = theme.Style(theme.MUTED, "|", "")
+#: What may become of a line without a partner, in the words of the key, and its hollow mark.
+_ALONE = {
+    "early": ("sent before anybody was listening", theme.Style(theme.MUTED, "D", "")),
+    "lost": ("lost message", theme.Style(theme.ALERT, "s", "")),
+    "late": ("sent after the receiver's last line", theme.Style(theme.MUTED, "s", "")),
+    "strange": ("not among what was sent", theme.Style(theme.PURPLE, "o", "")),
+}
 
 
 @runtime_checkable
@@ -58,11 +61,15 @@ class Line:
         time_ns: When it was logged, in nanoseconds.
         words: The number as it was written.
         partner: Place of the line of the same message in the other log, or None.
+        fate: `arrived` if it has a partner; otherwise, of what was sent, `early` before anything
+            arrived, when nobody was listening yet, `late` after the receiver's last line, when
+            nobody can say if it arrived, or `lost`; of what was received, `strange`.
     """
 
     time_ns: int
     words: str
     partner: int | None = None
+    fate: str = "arrived"
 
     @property
     def value(self) -> float:
@@ -84,39 +91,10 @@ class Pairs:
     received: tuple[Line, ...]
     skipped: int = 0
 
-    @property
-    def arrived(self) -> tuple[Line, ...]:
-        """Return what was sent and received."""
-        return tuple(line for line in self.sent if line.partner is not None)
-
-    @property
-    def late(self) -> tuple[Line, ...]:
-        """Return what was sent after the receiver's last line: nobody can say if it arrived."""
-        if not self.received:
-            return ()
-        last = max(line.time_ns for line in self.received)
-        return tuple(one for one in self.sent if one.partner is None and one.time_ns > last)
-
-    @property
-    def lost(self) -> tuple[Line, ...]:
-        """Return what was sent between messages that arrived, and not received."""
-        others = {*self.early, *self.late}
-        return tuple(one for one in self.sent if one.partner is None and one not in others)
-
-    @property
-    def early(self) -> tuple[Line, ...]:
-        """Return what was sent before anything arrived: nobody was listening yet.
-
-        When a subscription is matched with its publisher, no log tells.
-        """
-        late = self.late
-        before = itertools.takewhile(lambda line: line.partner is None, self.sent)
-        return tuple(one for one in before if one not in late)
-
-    @property
-    def strange(self) -> tuple[Line, ...]:
-        """Return what was received although the sender's lines do not have it."""
-        return tuple(line for line in self.received if line.partner is None)
+    def those(self, fate: str) -> list[Line]:
+        """Return the lines of one fate; of what arrived those of the sender."""
+        lines = self.received if fate == "strange" else self.sent
+        return [line for line in lines if line.fate == fate]
 
 
 def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
@@ -135,11 +113,17 @@ def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
     there = others[: 2 * MOST]
     links = _links(here, there)
     back = {target: source for source, target in links.items()}
-    return Pairs(
-        tuple(Line(one.time_ns, one.words, links.get(rank)) for rank, one in enumerate(here)),
-        tuple(Line(one.time_ns, one.words, back.get(rank)) for rank, one in enumerate(there)),
-        len(every) - len(here),
-    )
+    first, last = min(links, default=len(here)), max((one.time_ns for one in there), default=inf)
+    ours = []
+    for rank, line in enumerate(here):
+        fate = "late" if line.time_ns > last else "early" if rank < first else "lost"
+        ours.append(_joined(line, links.get(rank), fate))
+    theirs = [_joined(line, back.get(rank), "strange") for rank, line in enumerate(there)]
+    return Pairs(tuple(ours), tuple(theirs), len(every) - len(here))
+
+
+def _joined(line: Line, partner: int | None, alone: str) -> Line:
+    return replace(line, partner=partner, fate=alone if partner is None else "arrived")
 
 
 def first_number(text: str) -> str:
@@ -244,18 +228,10 @@ def _others(records: Sequence[LogRecord], shown: Pairs) -> tuple[int, ...]:
 
 def _key(shown: Pairs, others: tuple[tuple[int, ...], ...]) -> list[Entry]:
     """Return the marks in use, each with its meaning."""
-    hollow = theme.CARD
-    entries = (
-        (Entry("line of the sender", _SENT), shown.arrived),
-        (Entry("line of the receiver", _RECEIVED), shown.arrived),
-        (Entry("message", _MESSAGE), shown.arrived),
-        (Entry("sent before anybody was listening", _EARLY, hollow), shown.early),
-        (Entry("lost message", _LOST, hollow), shown.lost),
-        (Entry("sent after the receiver's last line", _LATE, hollow), shown.late),
-        (Entry("not among what was sent", _STRANGE, hollow), shown.strange),
-        (Entry("other log line", _OTHER), any(others)),
-    )
-    return [entry for entry, used in entries if used]
+    usual = {"line of the sender": _SENT, "line of the receiver": _RECEIVED, "message": _MESSAGE}
+    found = [Entry(*one) for one in usual.items() if shown.those("arrived")]
+    alone = [Entry(*look, theme.CARD) for fate, look in _ALONE.items() if shown.those(fate)]
+    return [*found, *alone, *([Entry("other log line", _OTHER)] if any(others) else [])]
 
 
 class _Drawing:
@@ -280,19 +256,17 @@ class _Drawing:
         shown = self._shown
         ends = (self._receiver - _RIM, self._sender + _RIM)
         self._canvas.time_axis(self._scale, *ends)
-        lost = [f"{len(shown.lost)} lost"] if shown.lost else []
+        lost = [f"{len(shown.those('lost'))} lost"] if shown.those("lost") else []
         self._draw_lane(0, self._sender, [f"{len(shown.sent)} sent", *lost])
         self._draw_lane(1, self._receiver, [f"{len(shown.received)} received"])
         stroke = Stroke(_MESSAGE.colour, _MESSAGE.dash, 1.3)
-        for line in shown.arrived:
+        for line in shown.those("arrived"):
             way = [(self._x(line.time_ns), self._sender), (self._end(line), self._receiver + 6)]
             self._canvas.arrow(Path(way), stroke)
-        looks = dict.fromkeys(shown.late, _LATE) | dict.fromkeys(shown.early, _EARLY)
         for line in shown.sent:
-            look = _SENT if line.partner is not None else looks.get(line, _LOST)
-            self._mark(line, self._sender, look)
+            self._mark(line, self._sender, _SENT)
         for line in shown.received:
-            self._mark(line, self._receiver, _STRANGE if line.partner is None else _RECEIVED)
+            self._mark(line, self._receiver, _RECEIVED)
         self._write_values()
 
     def _x(self, time_ns: int) -> float:
@@ -310,16 +284,16 @@ class _Drawing:
             at = y - rank * line_height() - 3
             self._canvas.text(self._scale.left - 18, at, words, colour, "right")
         for at_ns in self._others[side]:
-            look: dict[str, Any] = {"ms": 9, "color": _OTHER.colour, "zorder": 3}
-            self._canvas.axes.plot([self._x(at_ns)], [y], _OTHER.marker, **look)
+            self._canvas.mark(self._x(at_ns), y, _OTHER, 9, layer=3)
 
     def _mark(self, line: Line, y: float, look: theme.Style) -> None:
         """Draw a mark, hollow if the message has no partner."""
-        fill, edge, width, above = look.colour, theme.CARD, 0.8, 4
-        if line.partner is None:
-            fill, edge, width, above = theme.CARD, look.colour, 1.6, 5
-        more: dict[str, Any] = {"mfc": fill, "mec": edge, "mew": width, "zorder": above}
-        self._canvas.axes.plot([self._x(line.time_ns)], [y], look.marker, ms=7, **more)
+        x = self._x(line.time_ns)
+        if line.partner is not None:
+            self._canvas.mark(x, y, look, 7, theme.CARD, 0.8)
+        else:
+            look = _ALONE[line.fate][1]
+            self._canvas.mark(x, y, look, 7, width=1.6, layer=5, fill=theme.CARD)
 
     def _write_values(self) -> None:
         """Write the first few numbers beside both marks of their message, where there is room."""
@@ -346,19 +320,19 @@ def _name_of(records: Iterable[LogRecord]) -> str:
 
 def describe(shown: Pairs, sender: str, receiver: str) -> str:
     """Tell what became of the messages, without times."""
-    arrived, lost, late = len(shown.arrived), len(shown.lost), len(shown.late)
+    fates = ("arrived", "lost", "late", "early", "strange")
+    arrived, lost, late, early, strange = (len(shown.those(fate)) for fate in fates)
     every = "all" if arrived == len(shown.sent) > 1 else str(arrived or "none")
     sums = [f"{every} arrived at {receiver}"]
     sums += [f"{lost or 'none'} {_was(lost or 1)} lost"] if arrived else []
     sums += [f"{late} {_was(late)} sent after its last line"] if late else []
     said = [f"{sender} sent {count(len(shown.sent), 'message')}: {listing(sums)}."]
-    if shown.early:
-        early = len(shown.early)
+    if early:
         which = "The first one" if early == 1 else f"The first {early}"
         said.append(f"{which} {_was(early)} sent before anybody was listening.")
-    if shown.strange:
-        verb = "has" if len(shown.strange) == 1 else "have"
-        lines = count(len(shown.strange), "line")
+    if strange:
+        verb = "has" if strange == 1 else "have"
+        lines = count(strange, "line")
         said.append(f"{lines} of {receiver} {verb} a number that {sender} did not log.")
     return " ".join([*said, not_shown(shown.skipped, "later message")]).strip()
 

@@ -257,8 +257,7 @@ def _draw_column(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
 
 def _draw_exit(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
     look, colour = (_TAKEN, theme.TAKEN_TEXT) if one.taken else (_DROPPED, theme.DROPPED_TEXT)
-    size = min(8.0, grid.step * 0.6)
-    canvas.axes.plot([x], [grid.bottom - 12], look.marker, ms=size, color=look.colour, mew=0)
+    canvas.mark(x, grid.bottom - 12, look, min(8.0, grid.step * 0.6), width=0, layer=2)
     if grid.step >= _ROOMY:
         number = str(one.taken or one.dropped)
         canvas.text(x, grid.bottom - 28, number, colour, "center", "bold")

@@ -12,7 +12,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
-from typing import Any
 
 from matplotlib.path import Path
 
@@ -499,8 +498,7 @@ class _Drawing:
     def _mark(self, x: float, y: float, look: theme.Style, size: float) -> None:
         # A rim in the card's colour keeps overlapping marks apart; a bare line has none.
         rim = look.colour if look.marker in ("|", "x") else theme.CARD
-        more: dict[str, Any] = {"color": look.colour, "mec": rim, "mew": 1.2, "zorder": 4}
-        self._canvas.axes.plot([x], [y], look.marker, ms=size, **more)
+        self._canvas.mark(x, y, look, size, rim, 1.2)
 
 
 def _bar(wait: WaitRecord) -> theme.Bar:
