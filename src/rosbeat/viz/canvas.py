@@ -118,13 +118,7 @@ class TimeScale:
 
 
 def lane_scale(names: Sequence[str], seconds: float, least: float = 0.0) -> TimeScale:
-    """Return the scale for lanes, with room at the left for their names.
-
-    Args:
-        names: Names of the lanes.
-        seconds: Time at the right end.
-        least: Least room for the names, in CSS pixels.
-    """
+    """Return the scale of `seconds` for lanes, with room for their names at the left."""
     wide = max(text_width(row) for name in names for row in wrap(name, _LANE_NAMES))
     left = theme.MARGIN + max(wide, least) + 24
     return TimeScale(seconds, left, theme.WIDTH - theme.MARGIN - 34)
@@ -138,13 +132,7 @@ _RADIUS = 9.0
 
 @dataclass(frozen=True)
 class Stroke:
-    """Describe how an arrow looks.
-
-    Attributes:
-        colour: Of line and head.
-        dash: Matplotlib line style.
-        width: Line width in points.
-    """
+    """Describe how an arrow looks: its colour, matplotlib line style, and width in points."""
 
     colour: str = theme.INK
     dash: str | tuple[float, tuple[float, ...]] = "-"
@@ -157,12 +145,7 @@ PLAIN = Stroke()
 
 
 def smooth(points: Sequence[Point], downward: bool = False) -> Path:
-    """Return a smooth line through the points, running along the flow at each of them.
-
-    Args:
-        points: At least two.
-        downward: Whether the flow runs down instead of to the right.
-    """
+    """Return a smooth line through the points, along the flow (to the right or down) at each."""
     vertices, codes = [points[0]], [Path.MOVETO]
     for (x0, y0), (x1, y1) in itertools.pairwise(points):
         if downward:
@@ -230,10 +213,7 @@ class Canvas:
     """Hold a figure with axes that count CSS pixels.
 
     Attributes:
-        figure: The figure.
         axes: Axes over the whole figure, x from 0 to `width`, y from 0 (bottom) to `height`.
-        width: Of the figure.
-        height: Of the figure.
         bottom: Lower end of what is drawn, above the note if there is one.
         top: Upper end of what is drawn, below the heading and the key if there are any.
     """

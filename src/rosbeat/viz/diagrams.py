@@ -143,9 +143,6 @@ def diagram(name: str) -> Picture:
         name: The number of a page, for a map with the part that the page is about; or `workspace`,
             `overlay`, `entry point`.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If there is no such diagram.
     """

@@ -167,12 +167,7 @@ class Marked:
 
 
 def marked(source: Explanation, infrastructure: bool = False) -> Marked:
-    """Mark the causes in the graph of an explanation.
-
-    Args:
-        source: The explanation.
-        infrastructure: Whether to show the topics that every node brings along, too.
-    """
+    """Mark the causes in the graph of an explanation."""
     # The topic that is asked about is shown even if every node brings it along.
     brought = set(source.graph.topics(True)) - set(source.graph.topics())
     plain = wiring(source.graph, infrastructure or source.topic in brought)
@@ -251,9 +246,6 @@ def graph(
         highlight: Name of a node or topic, or several, to draw boldly.
         infrastructure: Whether to show `/rosout`, `/parameter_events` and `/clock`, too.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If there is no node, or a highlighted name is not in the graph.
     """
@@ -286,13 +278,7 @@ def graph(
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Hold a placement with its labels, and whether it flows down instead of to the right.
-
-    Attributes:
-        labels: What is written in each box.
-        placement: Where the boxes, the arrows and the frames are.
-        down: Whether it flows down.
-    """
+    """Hold a placement with its labels, and whether it flows down instead of to the right."""
 
     labels: dict[str, Label]
     placement: Placement

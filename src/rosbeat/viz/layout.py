@@ -246,12 +246,7 @@ def enclosed(
 
 
 def clustered(plan: Layering, groups: Sequence[Collection[str]]) -> Layering:
-    """Reorder columns so that each group can have a frame.
-
-    Args:
-        plan: Columns and order.
-        groups: Names that get a frame; no name is in two groups.
-    """
+    """Reorder columns so that each group can have a frame; no name may be in two groups."""
     place = {name: (rank + 0.5) / len(one) for one in plan.layers for rank, name in enumerate(one)}
     members = [set(group) for group in groups]
     for chain in plan.chains.values():

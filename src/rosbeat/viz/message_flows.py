@@ -101,10 +101,6 @@ def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
     """Pair the lines that carry the same number, in order, as many as possible.
 
     The number is the first one in the text. If there is a choice, lines close in time are paired.
-
-    Args:
-        sent: What the sender logged.
-        received: What the receiver logged.
     """
     every, others = _numbered(sent), _numbered(received)
     here = every[:MOST]

@@ -159,9 +159,6 @@ def values(
         unit: Unit of the values, such as `°C`.
         field: Field to draw if messages have several, nested ones with dots.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If the topic is unknown, nothing was published on it, the field is missing or
             not a number, or a band is not a pair of ascending limits.
@@ -316,9 +313,6 @@ def comparison(
         field: Field to draw if messages have several, nested ones with dots.
         label: What the values are; the topic's name by default.
         unit: Unit of the values, such as `°C`.
-
-    Returns:
-        The picture.
 
     Raises:
         PictureError: If it is no comparison, there is no value to draw, or the field is missing or

@@ -344,9 +344,6 @@ def timeline(
             topics but the infrastructure, and all nodes.
         until: Last time to show, in seconds of virtual time.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If a topic is unknown, the time is not a number from 0 up, or nothing
             happened.
