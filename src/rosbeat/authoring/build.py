@@ -193,12 +193,7 @@ def _stale(course: Course, lessons: list[Lesson], derived: Iterable[Path]) -> li
 
 
 def stale_pages(folder: Path, names: set[str]) -> list[Path]:
-    """Find pages that the builder wrote and whose lesson is gone.
-
-    Args:
-        folder: A tree of pages.
-        names: The names of the lessons that exist.
-    """
+    """Find pages in a tree that the builder wrote and whose lesson is not among `names`."""
     gone = [path for path in sorted(folder.glob("*.ipynb")) if path.stem not in names]
     read = ((path, pages.read_page(path)) for path in gone)
     return [
@@ -268,12 +263,7 @@ def _diff(present: bytes, content: bytes) -> str:
 
 
 def write(path: Path, content: bytes) -> None:
-    """Replace a file in one step, so that nobody ever reads half of it.
-
-    Args:
-        path: The file; its folder is made if it does not exist.
-        content: All of its bytes.
-    """
+    """Replace a file, or make it and its folder, so that nobody ever reads half of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     descriptor, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
@@ -314,12 +304,7 @@ def _was_worked_in(path: Path) -> bool:
 
 
 def answer_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes]:
-    """Return the file of every answer, with its content: the cells as the solution page has them.
-
-    Args:
-        course: Where they belong.
-        lessons: All lessons of the course.
-    """
+    """Return the file and the content of every answer: its cells as the solution page has them."""
     if not _solved(course).parent.is_dir():  # such a course has no package to give hints
         return {}
     texts: dict[str, list[str]] = {}
@@ -339,8 +324,7 @@ def package_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes
 
     Args:
         course: Where they belong.
-        lessons: All lessons of the course, in order; without a cell that saves a file there is no
-            package.
+        lessons: All lessons of the course; without a cell that saves a file there is no package.
 
     Raises:
         LessonError: `ros2 pkg create` failed.

@@ -71,13 +71,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Desk:
-    """Hold one lesson together with the context that a rule may need.
-
-    Attributes:
-        course: The folders that links may point into.
-        lessons: All lessons of the course.
-        lesson: The lesson to check.
-    """
+    """Hold the lesson to check, all lessons, and the folders that links may point into."""
 
     course: Course
     lessons: tuple[Lesson, ...]
@@ -108,16 +102,7 @@ Lint = Callable[[Desk], Iterator[Finding]]
 
 
 def check_lessons(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -> list[Finding]:
-    """Apply every rule to the chosen lessons.
-
-    Args:
-        course: Where links lead.
-        lessons: All lessons of the course.
-        chosen: The lessons to check.
-
-    Returns:
-        What breaks a rule, by file and line.
-    """
+    """Apply every rule to the chosen lessons; return what breaks one, by file and line."""
     found = []
     for lesson in chosen:
         desk = Desk(course, tuple(lessons), lesson)
@@ -431,20 +416,12 @@ def _never_returns(node: ast.AST) -> bool:
 
 
 def learner_text(cell: SourceCell) -> str:
-    """Return what a learner sees of a cell, on the lines it has in the source.
-
-    Args:
-        cell: The cell.
-    """
+    """Return what a learner sees of a cell, on the lines it has in the source."""
     return with_blanks_in_place(cell.source) if cell.kind == "code" else cell.source
 
 
 def tree_of(text: str) -> ast.Module | None:
-    """Parse code, with IPython's magics out of the way; None if it is no Python.
-
-    Args:
-        text: The text of a code cell.
-    """
+    """Parse code, with IPython's magics out of the way; None if it is no Python."""
     if text.lstrip().startswith("%%"):
         return ast.Module([], [])
     plain = [_MAGIC.sub(lambda m: f"{m[1] or m[2] or ''}pass", line) for line in text.split("\n")]
@@ -455,11 +432,7 @@ def tree_of(text: str) -> ast.Module | None:
 
 
 def prose_lines(cell: SourceCell) -> Iterator[tuple[int, str]]:
-    """Yield the lines of a markdown cell that are not fenced code, with their source lines.
-
-    Args:
-        cell: The cell; of a code cell nothing is prose.
-    """
+    """Yield the lines of a markdown cell that are not fenced code, with their source lines."""
     fence = ""
     for number, line in enumerate(cell.source.split("\n"), cell.line):
         match = _FENCE.match(line)
@@ -470,11 +443,7 @@ def prose_lines(cell: SourceCell) -> Iterator[tuple[int, str]]:
 
 
 def headings(cell: SourceCell) -> Iterator[tuple[int, int, str]]:
-    """Yield the headings of a cell: source line, level, text.
-
-    Args:
-        cell: The cell; a code cell has none.
-    """
+    """Yield the headings of a cell: source line, level, text."""
     for number, line in prose_lines(cell):
         match = re.match(r"(#{1,6}) +(.*?) *#*$", line)
         if match:

@@ -94,11 +94,7 @@ def solution_page(
 
 
 def to_bytes(page: NotebookNode) -> bytes:
-    """Return a page as it stands in a file.
-
-    Args:
-        page: The page.
-    """
+    """Return a page as it stands in a file."""
     nbformat.validate(page)
     text: str = nbformat.writes(page)
     return (text.rstrip("\n") + "\n").encode()
@@ -278,11 +274,7 @@ def quiet_failures(page: NotebookNode) -> None:
 
 
 def quiet_message(message: str) -> str:
-    """Replace the names of a kernel's temporary files, and drop colours.
-
-    Args:
-        message: An exception's text.
-    """
+    """Replace the names of a kernel's temporary files, and drop colours."""
     return _CELL_FILE.sub("cell", _COLOUR.sub("", message))
 
 
@@ -290,9 +282,6 @@ def quiet_traceback(printed: str) -> str:
     """Leave the learner's own frames in tracebacks that a program printed, without files.
 
     The frames of libraries are other ones in another version, and so are the marks below a line.
-
-    Args:
-        printed: What the program wrote to standard error.
     """
     return quiet_message(_MARKS.sub("", _LIBRARY_FRAME.sub("", printed)))
 

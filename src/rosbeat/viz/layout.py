@@ -142,19 +142,20 @@ def back_links(names: Sequence[str], links: Sequence[Link]) -> list[Link]:
     targets = {name: [end for start, end in links if start == name] for name in names}
     reached = {end for _, end in links}
     done: set[str] = set()
+    path: list[str] = []
     back: list[Link] = []
+
+    def visit(name: str) -> None:
+        path.append(name)
+        back.extend((name, end) for end in targets[name] if end in path)
+        for end in targets[name]:
+            if end not in done and end not in path:
+                visit(end)
+        done.add(path.pop())
+
     for root in sorted(names, key=lambda name: name in reached):
-        path: list[str] = []
-        todo = [(root, False)]
-        while todo:
-            name, is_leaving = todo.pop()
-            if is_leaving:
-                done.add(path.pop())
-            elif name not in done and name not in path:
-                path.append(name)
-                back += [(name, end) for end in targets[name] if end in path]
-                todo.append((name, True))
-                todo += [(end, False) for end in reversed(targets[name]) if end not in path]
+        if root not in done:
+            visit(root)
     return back
 
 
