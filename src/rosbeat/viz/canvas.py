@@ -239,15 +239,25 @@ class Canvas:
             x, y, words, color=colour, ha=align, va="center_baseline", weight=weight
         )
 
-    def box(self, middle: Point, size: Point, radius: float, **look: Any) -> None:  # noqa: ANN401 - matplotlib's
-        """Draw a rectangle with rounded corners, which looks as matplotlib's patches do."""
+    def shape(
+        self,
+        middle: Point,
+        size: Point,
+        radius: float | None,
+        fill: str,
+        edge: str,
+        width: float,
+        dash: str = "-",
+        layer: float = 3,
+    ) -> None:
+        """Draw a rectangle with corners of this radius, or an ellipse if there is none."""
+        look: dict[str, Any] = {"fc": fill, "ec": edge, "lw": width, "ls": dash, "zorder": layer}
+        if radius is None:
+            self.axes.add_patch(Ellipse(middle, *size, **look))
+            return
         corner = (middle[0] - size[0] / 2, middle[1] - size[1] / 2)
-        shape = f"round,pad=0,rounding_size={radius}"
-        self.axes.add_patch(FancyBboxPatch(corner, *size, shape, **{"zorder": 3, **look}))
-
-    def ellipse(self, middle: Point, size: Point, **look: Any) -> None:  # noqa: ANN401 - matplotlib's
-        """Draw an ellipse, which looks as matplotlib's patches do."""
-        self.axes.add_patch(Ellipse(middle, *size, zorder=3, **look))
+        box = f"round,pad=0,rounding_size={radius}"
+        self.axes.add_patch(FancyBboxPatch(corner, *size, box, **look))
 
     def mark(
         self,
@@ -294,7 +304,7 @@ class Canvas:
         """Draw a rounded frame with its label on the upper edge, below everything else."""
         edge, width = (theme.INK, 2.2) if strong else (theme.FRAME, 1.1)
         middle, size = ((left + right) / 2, (bottom + top) / 2), (right - left, top - bottom)
-        self.box(middle, size, 10, fc=theme.FRAME_FILL, ec=edge, lw=width, zorder=0.3)
+        self.shape(middle, size, 10, theme.FRAME_FILL, edge, width, layer=0.3)
         x, align = ((left + right) / 2, "center") if is_centred else (left + FRAME_INDENT, "left")
         colour, weight = (theme.INK, "bold") if strong else (theme.MUTED, "normal")
         label = self.text(x, top, words, colour, align, weight)

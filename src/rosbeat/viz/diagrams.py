@@ -133,6 +133,8 @@ _LOOKS = {
     "program": (theme.NODE_FILL, theme.BLUE),
     "file": (theme.CARD, theme.INK),
 }
+#: Radius of the corners; an ellipse has none.
+_RADII = {"node": None, "topic": 5, "program": 9, "file": 1}
 
 
 @called_as('viz.diagram("03")')
@@ -293,11 +295,7 @@ def _draw_box(canvas: Canvas, box: Box, at: Point, bright: bool) -> None:
         x, align, weight = at[0] - box.size[0] / 2, "left", "normal"
     else:
         fill, edge = _LOOKS[box.kind] if bright else (theme.CARD, theme.FRAME)
-        look = {"fc": fill, "ec": edge, "lw": 2.2 if bright else 1.1}
-        if box.kind == "node":
-            canvas.ellipse(at, box.size, **look)
-        else:
-            canvas.box(at, box.size, {"topic": 5, "program": 9}.get(box.kind, 1), **look)
+        canvas.shape(at, box.size, _RADII[box.kind], fill, edge, 2.2 if bright else 1.1)
     for rank, row in enumerate(rows):
         y = at[1] + ((len(rows) - 1) / 2 - rank) * line_height()
         canvas.text(x, y, row, theme.INK if bright else theme.MUTED, align, weight)

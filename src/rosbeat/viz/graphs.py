@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
 from rosbeat.errors import PictureError, called_as
@@ -97,20 +96,18 @@ class Label:
 
     def draw(self, canvas: Canvas, x: float, y: float) -> None:
         """Draw box and text with the middle at (`x`, `y`), in CSS pixels."""
-        width, height = self.size
-        look: dict[str, Any] = {"lw": 2.6 if self.strong else 1.3}
-        look["ls"] = "--" if self.dashed else "-"
         if self.is_node:
             fill = theme.NODE_FILL_STRONG if self.strong else theme.NODE_FILL
-            edge = theme.ALERT if self.dashed else theme.BLUE
-            canvas.ellipse((x, y), self.size, fc=fill, ec=edge, **look)
-        elif self.shape == "topic":
+            edge, radius = theme.ALERT if self.dashed else theme.BLUE, None
+        else:
             fill = theme.TOPIC_FILL_STRONG if self.strong else theme.TOPIC_FILL
-            edge = theme.ALERT if self.broken else theme.TOPIC_EDGE
-            canvas.box((x, y), self.size, 4, fc=fill, ec=edge, **look)
+            edge, radius = theme.ALERT if self.broken else theme.TOPIC_EDGE, 4.0
+        if self.shape != "note":
+            width, dash = 2.6 if self.strong else 1.3, "--" if self.dashed else "-"
+            canvas.shape((x, y), self.size, radius, fill, edge, width, dash)
         if self.dashed and self.is_node:
             # A cross on the rim, at the upper right.
-            at = (x + width / 2 * 0.62, y + height / 2 * 0.78)
+            at = (x + self.size[0] / 2 * 0.62, y + self.size[1] / 2 * 0.78)
             canvas.mark(*at, theme.Style(theme.ALERT, "X", ""), 12, theme.CARD, 1.2, layer=5)
         for rank, line in enumerate(self.lines):
             middle = y + ((len(self.lines) - 1) / 2 - rank) * line_height()
