@@ -38,7 +38,6 @@ _ALT = re.compile(r"\balt=(\"[^\"]*\w[^\"]*\"|'[^']*\w[^']*')", re.IGNORECASE)
 _SRC = re.compile(r"\bsrc=[\"']([^\"']*)[\"']", re.IGNORECASE)
 _ELSEWHERE = ("http://", "https://", "mailto:")
 _MACHINE = re.compile(r"(?<![\w.:~/>-])/(?:home|Users|root|tmp|work|mnt|media|var)/\w|\b[A-Z]:\\\w")
-_REPLACING = {"clear_output", "update_display", "display_id"}
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 # Shorter lines of an answer (`pass`, `return`, `count = 0`) are everybody's.
 _SHORTEST = 12
@@ -276,7 +275,7 @@ def _guesses(text: str) -> list[object]:
     ]
 
 
-# Links, images, headings and numbers.
+# Links, images, headings and paths.
 
 
 def broken_link(desk: Desk) -> Iterator[Finding]:
@@ -333,32 +332,14 @@ def _lesson_at(desk: Desk, path: Path) -> Lesson | None:
     return names.get(path.stem) if is_page else None
 
 
-def page_numbers(desk: Desk) -> Iterator[Finding]:
-    """Require that a number belongs to one page, and that a page needs earlier ones."""
-    lesson = desk.lesson
-    twins = [o.name for o in desk.lessons if o.number == lesson.number and o.name != lesson.name]
-    if twins:
-        what = f"the number {lesson.number} also belongs to {', '.join(twins)}."
-        yield Finding(1, what, "Rename one of them.")
-    known = {other.number for other in desk.lessons}
-    for number in lesson.header.needs:
-        if number not in known:
-            yield Finding(1, f"needs names page {number}, which is not there.")
-        elif number >= lesson.number:
-            yield Finding(1, f"needs names page {number}, which comes later.")
-
-
 def title(desk: Desk) -> Iterator[Finding]:
     """Require that the page opens with the header's title, the only heading of level 1."""
     wanted = desk.lesson.header.title
-    tops = [(line, text) for line, level, text in desk.headings if level == 1]
-    first = desk.lesson.cells[0] if desk.lesson.cells else None
-    if len(tops) != 1 or desk.headings[0][1] != 1 or not first or first.kind != "markdown":
-        what = f"the page has {len(tops)} headings of level 1; it opens with exactly one."
-        yield Finding(1, what, f"Begin the first cell with '# # {wanted}'.")
-    elif tops[0][1] != wanted:
-        what = f"the heading {tops[0][1]!r} is not the title of the header, {wanted!r}."
-        yield Finding(tops[0][0], what)
+    tops = [text for _, level, text in desk.headings if level == 1]
+    opening = [text for cell in desk.lesson.cells[:1] for _, _, text in headings(cell)][:1]
+    if tops != [wanted] or opening != [wanted]:
+        what = f"the page has the headings {tops} of level 1; it opens with exactly one."
+        yield Finding(1, what, f"Begin the first cell with '# # {wanted}', as the header says.")
 
 
 def heading_levels(desk: Desk) -> Iterator[Finding]:
@@ -371,27 +352,6 @@ def heading_levels(desk: Desk) -> Iterator[Finding]:
         above = level
 
 
-# Code that would never end, could not be compared, or runs on one machine only.
-
-
-def endless(desk: Desk) -> Iterator[Finding]:
-    """Require that no cell waits for ever: no spin and no open loop at the top level."""
-    for cell in (cell for cell in desk.python if not cell.saved_as):
-        if any(_never_returns(node) for node in _run_at_once(with_answers(cell.source))):
-            cure = "Run for a bounded time instead: ros.run(seconds=10)."
-            yield Finding(cell.line, "this cell would never end.", cure)
-
-
-def unseen_by_nbval(desk: Desk) -> Iterator[Finding]:
-    """Require that no output is replaced: nbval compares what came, not what is left."""
-    for cell in desk.python:
-        tree = tree_of(with_answers(cell.source)) or ast.Module([], [])
-        used = {name for node in ast.walk(tree) for name in _names(node)}
-        for name in sorted(_REPLACING & used):
-            what = f"{name} replaces an output, which the tests cannot compare."
-            yield Finding(cell.line, what, "Show it once, at the end.")
-
-
 def machine_path(desk: Desk) -> Iterator[Finding]:
     """Require that no path of one machine stands in a page."""
     for cell in desk.lesson.cells:
@@ -399,17 +359,6 @@ def machine_path(desk: Desk) -> Iterator[Finding]:
             if _MACHINE.search(line):
                 what = f"a path of one machine: {line.strip()!r}."
                 yield Finding(number, what, "Use a relative path.")
-
-
-def _never_returns(node: ast.AST) -> bool:
-    if isinstance(node, ast.Call):
-        return ast.unparse(node.func).rpartition(".")[2] == "spin"
-    return (
-        isinstance(node, ast.While)
-        and isinstance(node.test, ast.Constant)
-        and bool(node.test.value)
-        and not any(isinstance(inner, (ast.Break, ast.Return)) for inner in ast.walk(node))
-    )
 
 
 # What rules look at.
@@ -475,11 +424,8 @@ LINTS: tuple[Lint, ...] = (
     predictions,
     broken_link,
     alt_text,
-    page_numbers,
     title,
     heading_levels,
-    endless,
-    unseen_by_nbval,
     machine_path,
 )
 """Every rule but `answer_markers`, which comes first: the others rely on it."""
