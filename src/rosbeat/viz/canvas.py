@@ -8,6 +8,7 @@ covers the figure and counts pixels from the lower left corner.
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -37,6 +38,8 @@ ROOM = theme.WIDTH - 2 * theme.MARGIN
 _PIXELS_PER_POINT = theme.DPI / 72
 #: Height of a line of text in units of its font size.
 _LINE = 1.35
+#: A text up to the next `/`, `_` or blank; a leading slash stays with what follows it.
+_PART = re.compile(r"(?:^/)?[^/_ ]+[/_ ]?|(?:^/)?[/_ ]")
 #: Widest line of a lane's name.
 _LANE_NAMES = 170.0
 
@@ -66,23 +69,13 @@ def wrap(name: str, limit: float) -> tuple[str, ...]:
     A part that is wider than the limit on its own is broken anywhere.
     """
     rows = [""]
-    for part in _parts(name):
+    for part in _PART.findall(name):
         pieces = [part] if text_width(part) <= limit else list(part)
         for piece in pieces:
             if rows[-1] and text_width(rows[-1] + piece) > limit:
                 rows.append("")
             rows[-1] += piece
     return tuple(row.strip() for row in rows)
-
-
-def _parts(name: str) -> list[str]:
-    """Cut a text after every `/`, `_` and blank; a leading slash stays with what follows it."""
-    parts = [""]
-    for letter in name:
-        parts[-1] += letter
-        if letter in "/_ " and parts != ["/"]:
-            parts.append("")
-    return [part for part in parts if part]
 
 
 # Times as places on an axis.
