@@ -186,17 +186,14 @@ def _chain(link: Link, columns: dict[str, int], layers: Layers) -> tuple[str, ..
 def _untangled(plan: Layering) -> Layering:
     """Return the plan with the columns reordered so that few arrows cross."""
     before, after = plan.neighbours()
-    layers = plan.layers
-    best, fewest = layers, _crossings(layers, after)
+    tried = [plan.layers]
     for sweep in range(_ORDER_SWEEPS):
-        layers = [list(layer) for layer in layers]
+        layers = [list(layer) for layer in tried[-1]]
         order, sides = (1, before) if sweep % 2 == 0 else (-1, after)
         for layer in layers[::order]:
             _sort(layer, layers, sides)
-        crossings = _crossings(layers, after)
-        if crossings < fewest:
-            best, fewest = layers, crossings
-    return replace(plan, layers=best)
+        tried.append(layers)
+    return replace(plan, layers=min(tried, key=lambda layers: _crossings(layers, after)))
 
 
 def _sort(layer: list[str], layers: Layers, sides: dict[str, list[str]]) -> None:

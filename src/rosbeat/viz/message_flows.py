@@ -136,26 +136,17 @@ def _numbered(records: Sequence[LogRecord]) -> list[Line]:
 
 def _links(here: Sequence[Line], there: Sequence[Line]) -> dict[int, int]:
     """Return the longest common subsequence; among those the one with the least time between."""
-    # best[i][j]: the pairs among here[i:] and there[j:], and minus the time between them.
-    best = [[(0, 0)] * (len(there) + 1) for _ in range(len(here) + 1)]
+    # best[i][j]: of here[i:] and there[j:] the number of pairs, minus the time between, the pairs.
+    nothing: tuple[int, int, tuple[tuple[int, int], ...]] = (0, 0, ())
+    best = [[nothing] * (len(there) + 1) for _ in range(len(here) + 1)]
     for i in reversed(range(len(here))):
         for j in reversed(range(len(there))):
             choices, apart = [best[i + 1][j], best[i][j + 1]], there[j].time_ns - here[i].time_ns
             if here[i].value == there[j].value and apart >= -_HASTE_NS:
-                total, time = best[i + 1][j + 1]
-                choices.append((total + 1, time - abs(apart)))
-            best[i][j] = max(choices)
-    links: dict[int, int] = {}
-    i = j = 0
-    while i < len(here) and j < len(there):
-        if best[i][j] == best[i + 1][j]:
-            i += 1
-        elif best[i][j] == best[i][j + 1]:
-            j += 1
-        else:
-            links[i] = j
-            i, j = i + 1, j + 1
-    return links
+                total, time, links = best[i + 1][j + 1]
+                choices.append((total + 1, time - abs(apart), ((i, j), *links)))
+            best[i][j] = max(choices, key=lambda choice: choice[:2])
+    return dict(best[0][0][2])
 
 
 # The picture.

@@ -59,32 +59,6 @@ def test_one_changed_sentence_is_one_changed_line_in_each_page(lesson, tmp_path)
 
 # Before a page runs.
 
-BODY = """
-# %% exercise="00a" tags=["hide-input"]
-def f():
-    # --- answer
-    return 1
-    # --- blank
-    # return ____
-    # --- end
-
-# %% [markdown] only="solution"
-# Why.
-
-# %% [markdown] only="notebook"
-# Your turn.
-"""
-
-
-def test_each_tree_gets_its_cells_and_its_part(checkout):
-    lesson = checkout.lesson(BODY)
-    learner, solution = notebook_page(lesson), solution_draft(lesson)
-    assert [c.source for c in learner.cells] == [
-        "# Hear it", "def f():\n    return ____", "Your turn."
-    ]  # fmt: skip
-    assert [c.source for c in solution.cells] == ["# Hear it", "def f():\n    return 1", "Why."]
-
-
 HEAR, SAY, HOME = "00_hear_it", "01_say_it", "home"
 
 
@@ -150,22 +124,6 @@ def test_what_stands_behind_comment_signs_stands_bare_on_the_page(checkout):
     assert setup == python.format('"sensor = p.sensor:main"')
     blank = [cell.source for cell in notebook_page(lesson).cells]
     assert (blank[1], blank[4]) == (bash.format("mkdir ____"), python.format("____"))
-
-
-def test_a_prediction_is_asked_for_on_one_page_and_made_on_the_other(checkout):
-    lesson = checkout.lesson("""
-        # %% predict=true
-        x = [1, 2]
-        # --- answer
-        predict(2, len(x), because="It counts.")
-        # --- blank
-        # predict("____", len(x), because="It counts.")
-        # --- end
-    """)
-    (asked,), (made,) = (page(lesson).cells[1:] for page in (notebook_page, solution_draft))
-    assert asked.source == 'x = [1, 2]\npredict("____", len(x), because="It counts.")'
-    assert made.source == 'x = [1, 2]\npredict(2, len(x), because="It counts.")'
-    assert asked.metadata == {}
 
 
 # What a page tells nbgrader, for which `tests/with_nbgrader` then runs nbgrader itself.
