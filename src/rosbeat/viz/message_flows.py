@@ -84,12 +84,16 @@ class Pairs:
     Attributes:
         sent: Lines of the sender that carry a number, in order.
         received: Lines of the receiver that carry a number, in order.
+        others: When each side logged lines without a number, in nanoseconds.
+        names: Who logged the lines of each side.
         skipped: How many later lines of the sender are left out.
     """
 
     sent: tuple[Line, ...]
     received: tuple[Line, ...]
-    skipped: int = 0
+    others: tuple[list[int], list[int]]
+    names: tuple[str, str]
+    skipped: int
 
     def those(self, fate: str) -> list[Line]:
         """Return the lines of one fate; of what arrived those of the sender."""
@@ -115,7 +119,11 @@ def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
         fate = "late" if line.time_ns > last else "early" if rank < first else "lost"
         ours.append(_joined(line, links.get(rank), fate))
     theirs = [_joined(line, back.get(rank), "strange") for rank, line in enumerate(there)]
-    return Pairs(tuple(ours), tuple(theirs), len(every) - len(here))
+    skipped = len(every) - len(here)
+    end = max(one.time_ns for one in (*here, *there)) if skipped else inf
+    beside = _others(sent, end), _others(received, end)
+    names = _name_of(sent), _name_of(received)
+    return Pairs(tuple(ours), tuple(theirs), beside, names, skipped)
 
 
 def _joined(line: Line, partner: int | None, alone: str) -> Line:
@@ -132,6 +140,16 @@ def _numbered(records: Sequence[LogRecord]) -> list[Line]:
     found = ((one, first_number(one.text)) for one in records)
     lines = (Line(one.time_ns, words) for one, words in found if words)
     return sorted(lines, key=lambda line: line.time_ns)
+
+
+def _others(records: Sequence[LogRecord], end: float) -> list[int]:
+    times = (one.time_ns for one in records if not first_number(one.text))
+    return [time for time in times if time <= end]
+
+
+def _name_of(records: Iterable[LogRecord]) -> str:
+    """Return who logged these lines: one name, or several if a process has several nodes."""
+    return listing(dict.fromkeys(one.name for one in records)) or "the receiver"
 
 
 def _links(here: Sequence[Line], there: Sequence[Line]) -> dict[int, int]:
@@ -175,21 +193,18 @@ def message_flow(
     Raises:
         PictureError: If these are no terminals or log lines, or no line of `sent` has a number.
     """
-    ours, theirs = _records(sent), _records(received)
-    shown = pairs(ours, theirs)
+    shown = pairs(_records(sent), _records(received))
     if not shown.sent:
         raise PictureError(
             "There is no message to draw.",
             "A line that tells of a message has a number in it, and none of those sent has one.",
             "Let the publisher log what it publishes, and wait for some lines.",
         )
-    others = _others(ours, shown), _others(theirs, shown)
     height = _HEAD + 2 * _RIM + _LANE + _FOOT
     note = not_shown(shown.skipped, "later message")
-    with blank(height, entries=_key(shown, others), note=note) as canvas:
-        _Drawing(canvas, shown, others, (_name_of(ours), _name_of(theirs))).draw()
-    words = describe(shown, _name_of(ours), _name_of(theirs))
-    return Picture(canvas.figure, words, "Messages from one process to another")
+    with blank(height, entries=_key(shown), note=note) as canvas:
+        _Drawing(canvas, shown).draw()
+    return Picture(canvas.figure, describe(shown), "Messages from one process to another")
 
 
 def _records(given: object) -> tuple[LogRecord, ...]:
@@ -206,38 +221,25 @@ def _records(given: object) -> tuple[LogRecord, ...]:
     )
 
 
-def _others(records: Sequence[LogRecord], shown: Pairs) -> tuple[int, ...]:
-    """Return when the lines without a number were logged, as far as the picture goes."""
-    last = max(line.time_ns for line in shown.sent + shown.received)
-    times = (one.time_ns for one in records if not first_number(one.text))
-    return tuple(at for at in times if not shown.skipped or at <= last)
-
-
-def _key(shown: Pairs, others: tuple[tuple[int, ...], ...]) -> list[Entry]:
+def _key(shown: Pairs) -> list[Entry]:
     """Return the marks in use, each with its meaning."""
     usual = {"line of the sender": _SENT, "line of the receiver": _RECEIVED, "message": _MESSAGE}
     found = [Entry(*one) for one in usual.items() if shown.those("arrived")]
     alone = [Entry(*look, theme.CARD) for fate, look in _ALONE.items() if shown.those(fate)]
-    return [*found, *alone, *([Entry("other log line", _OTHER)] if any(others) else [])]
+    return [*found, *alone, *([Entry("other log line", _OTHER)] if any(shown.others) else [])]
 
 
 class _Drawing:
     """Draw two lanes and what is between them."""
 
-    def __init__(
-        self,
-        canvas: Canvas,
-        shown: Pairs,
-        others: tuple[tuple[int, ...], tuple[int, ...]],
-        names: tuple[str, str],
-    ) -> None:
-        self._canvas, self._shown, self._others, self._names = canvas, shown, others, names
+    def __init__(self, canvas: Canvas, shown: Pairs) -> None:
+        self._canvas, self._shown = canvas, shown
         self._sender = canvas.top - _HEAD - _RIM
         self._receiver = self._sender - _LANE
         times = [line.time_ns for line in shown.sent + shown.received]
-        times += others[0] + others[1]
+        times += shown.others[0] + shown.others[1]
         self._start = min(times)
-        self._scale = lane_scale(names, (max(times) - self._start) / NANOSECONDS, 100.0)
+        self._scale = lane_scale(shown.names, (max(times) - self._start) / NANOSECONDS, 100.0)
 
     def draw(self) -> None:
         shown = self._shown
@@ -265,12 +267,12 @@ class _Drawing:
         return self._x((line if line.partner is None else received[line.partner]).time_ns)
 
     def _draw_lane(self, side: int, y: float, sums: Sequence[str]) -> None:
-        self._canvas.lane(self._scale, y, self._names[side], has_text_below=True)
+        self._canvas.lane(self._scale, y, self._shown.names[side], has_text_below=True)
         for rank, words in enumerate(sums, 1):
             colour = theme.ALERT_TEXT if words.endswith("lost") else theme.MUTED
             at = y - rank * line_height() - 3
             self._canvas.text(self._scale.left - 18, at, words, colour, "right")
-        for at_ns in self._others[side]:
+        for at_ns in self._shown.others[side]:
             self._canvas.mark(self._x(at_ns), y, _OTHER, 9, layer=3)
 
     def _mark(self, line: Line, y: float, look: theme.Style) -> None:
@@ -300,13 +302,9 @@ class _Drawing:
 # The same in words.
 
 
-def _name_of(records: Iterable[LogRecord]) -> str:
-    """Return who logged these lines: one name, or several if a process has several nodes."""
-    return listing(dict.fromkeys(one.name for one in records)) or "the receiver"
-
-
-def describe(shown: Pairs, sender: str, receiver: str) -> str:
+def describe(shown: Pairs) -> str:
     """Tell what became of the messages, without times."""
+    sender, receiver = shown.names
     fates = ("arrived", "lost", "late", "early", "strange")
     arrived, lost, late, early, strange = (len(shown.those(fate)) for fate in fates)
     every = "all" if arrived == len(shown.sent) > 1 else str(arrived or "none")
