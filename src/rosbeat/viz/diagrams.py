@@ -67,14 +67,12 @@ class Arrow:
         target: Name of the box where it ends.
         words: What is written beside it.
         is_sideways: Whether an arrow around a corner leaves its box sideways.
-        has_two_heads: Whether it has a head at both ends.
     """
 
     source: str
     target: str
     words: str = ""
     is_sideways: bool = False
-    has_two_heads: bool = False
 
 
 @dataclass(frozen=True)
@@ -278,8 +276,7 @@ def _draw(canvas: Canvas, shown: Diagram, grid: _Grid) -> None:
     for arrow in sorted(shown.arrows, key=lambda one: shown.highlights(one.source, one.target)):
         bright = shown.highlights(arrow.source, arrow.target)
         points = [on_canvas(point) for point in grid.way(arrow)]
-        for way in (points, points[::-1])[: 1 + arrow.has_two_heads]:
-            canvas.arrow(cornered(way), _BRIGHT if bright else _QUIET)
+        canvas.arrow(cornered(points), _BRIGHT if bright else _QUIET)
         if arrow.words:
             x, y, align = grid.beside(arrow)
             colour = theme.INK if bright else theme.MUTED
@@ -532,7 +529,8 @@ DIAGRAMS = {
     "11": _beyond(
         _page("a topic, recorded and replayed", _TOPIC, _BAG, _MONITOR),
         *(_BAG, "file", "A bag records what is published on /temperature, and replays it."),
-        Arrow(_TOPIC, _BAG, has_two_heads=True),
+        Arrow(_TOPIC, _BAG),
+        Arrow(_BAG, _TOPIC),
     ),
     "12": _beyond(
         _page("what nodes have besides topics", _SENSOR, _MONITOR, _SERVICE),
