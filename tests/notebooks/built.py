@@ -17,7 +17,6 @@ from nbformat.v4 import output_from_msg
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.build import Change, compare
-from rosbeat.authoring.pages import Transform
 from rosbeat.authoring.source import Course, Lesson, read_lesson
 
 _OUTPUTS = ("stream", "display_data", "execute_result", "error")
@@ -77,14 +76,10 @@ def solution(
     lessons: Sequence[Lesson] = (),
 ) -> NotebookNode:
     """The solution page of a lesson that has been run already."""
-    return pages.solution_page(lesson, folder, points=points, lessons=lessons, run=_given(runs))
 
-
-def _given(runs: list[Ran]) -> Transform:
-    def fill(page: NotebookNode) -> NotebookNode:
+    def fill(page: NotebookNode, _: Path) -> None:
         code = [cell for cell in page.cells if cell.cell_type == "code"]
         for cell, ran in zip(code, runs, strict=True):
             cell.execution_count, cell.outputs = ran.count, ran.outputs
-        return page
 
-    return fill
+    return pages.solution_page(lesson, folder, points=points, lessons=lessons, run=fill)

@@ -46,7 +46,7 @@ def test_the_solution_page_is_built_from_the_source(source):
     stored = nbformat.read(COURSE.solutions / f"{source.stem}.ipynb", as_version=4)
     draft = pages.solution_page(
         read_lesson(source), COURSE.solutions, fresh=True, points=POINTS, lessons=LESSONS,
-        run=lambda page: page,
+        run=lambda page, folder: page,
     )  # fmt: skip
     assert without_outputs(stored) == without_outputs(draft), BUILD
 

@@ -3,7 +3,7 @@
 ::
 
     source     reads src/lessons/NN_slug.py into a Lesson; finds the lessons of a checkout
-    pages      the two trees, each a list of transformations
+    pages      the two trees, each made in a few steps
     execution  runs a page from top to bottom in a kernel of its own
     lint       the rules, one function each, for `rosbeat lint`
     build      compares or writes all derived files, for `rosbeat build`

@@ -19,11 +19,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
-
-import nbformat
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.lint import check_lessons
@@ -115,14 +114,11 @@ def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> li
             tell(f"{change.kind if change else 'same':8} {path.relative_to(course.root)}")
         if change and not plan.check:
             _keep_work(course, path, tell)
-            write(path, content)
+            if content is None:
+                path.unlink()
+            else:
+                write(path, content)
         changes += [change] if change else []
-    for path in [] if plan.names else _stale(course, lessons, derived):
-        tell(f"{'stale':8} {path.relative_to(course.root)}")
-        if not plan.check:
-            _keep_work(course, path, tell)
-            path.unlink()
-        changes.append(Change(path, "stale"))
     return changes
 
 
@@ -142,8 +138,11 @@ def _contents(
     chosen: list[Lesson],
     plan: Plan,
     derived: Mapping[Path, bytes],
-) -> Iterator[tuple[Path, bytes]]:
-    """Yield what is to be there; the package first, since a page that runs may need it."""
+) -> Iterator[tuple[Path, bytes | None]]:
+    """Yield what is to be there; the package first, since a page that runs may need it.
+
+    What is to go comes last, without a content.
+    """
     yield from derived.items()
     with _runs(chosen if plan.run else [], lessons, course.solutions, plan) as solution:
         for lesson in chosen:
@@ -151,6 +150,7 @@ def _contents(
             yield course.notebooks / f"{lesson.name}.ipynb", page
             if plan.run:
                 yield course.solutions / f"{lesson.name}.ipynb", solution(lesson)
+    yield from ((path, None) for path in ([] if plan.names else _stale(course, lessons, derived)))
 
 
 @contextmanager
@@ -162,14 +162,14 @@ def _runs(
     Yields:
         A function that waits for a lesson's page, and raises what its run raised.
     """
-    given = (folder, plan.fresh, dict(plan.points), tuple(lessons))
+    make = partial(_solution, folder=folder, lessons=lessons, plan=plan)
     if len(chosen) < 2:
-        yield lambda lesson: _solution(lesson, *given)
+        yield make
         return
     # A fork would take along whatever threads this process has.
     workers = min(AT_ONCE, os.cpu_count() or 1)
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
-        runs = {one.name: pool.submit(_solution, one, *given) for one in chosen}
+        runs = {one.name: pool.submit(make, one) for one in chosen}
         try:
             yield lambda lesson: runs[lesson.name].result()
         except BaseException:
@@ -177,15 +177,9 @@ def _runs(
             raise
 
 
-def _solution(
-    lesson: Lesson,
-    folder: Path,
-    fresh: bool,
-    points: Mapping[str, int],
-    lessons: Sequence[Lesson],
-) -> bytes:
-    page = pages.solution_page(lesson, folder, fresh=fresh, points=points, lessons=lessons)
-    return pages.to_bytes(page)
+def _solution(lesson: Lesson, folder: Path, lessons: Sequence[Lesson], plan: Plan) -> bytes:
+    given = (plan.fresh, plan.points, lessons)
+    return pages.to_bytes(pages.solution_page(lesson, folder, *given))
 
 
 def _stale(course: Course, lessons: list[Lesson], derived: Iterable[Path]) -> list[Path]:
@@ -199,29 +193,20 @@ def _stale(course: Course, lessons: list[Lesson], derived: Iterable[Path]) -> li
 
 
 def stale_pages(folder: Path, names: set[str]) -> list[Path]:
-    """Find pages that the builder wrote and whose lesson is gone.
-
-    Args:
-        folder: A tree of pages.
-        names: The names of the lessons that exist.
-    """
-    found = (path for path in sorted(folder.glob("*.ipynb")) if path.stem not in names)
-    return [path for path in found if _lesson_of(path) == path.stem]
-
-
-def _lesson_of(path: Path) -> str | None:
-    try:
-        page = nbformat.read(path, as_version=4)
-    except (nbformat.reader.NotJSONError, UnicodeDecodeError):
-        return None
-    lesson: str | None = page.metadata.get("rosbeat", {}).get("lesson")
-    return lesson
+    """Find pages in a tree that the builder wrote and whose lesson is not among `names`."""
+    gone = [path for path in sorted(folder.glob("*.ipynb")) if path.stem not in names]
+    read = ((path, pages.read_page(path)) for path in gone)
+    return [
+        path
+        for path, page in read
+        if page and page.metadata.get("rosbeat", {}).get("lesson") == path.stem
+    ]
 
 
 # Comparing and writing.
 
 
-def compare(path: Path, content: bytes) -> Change | None:
+def compare(path: Path, content: bytes | None) -> Change | None:
     """Compare a file on disk with what it should be; None if they are the same.
 
     The bytes of a picture depend on the versions of matplotlib and its fonts, which differ between
@@ -229,8 +214,10 @@ def compare(path: Path, content: bytes) -> Change | None:
 
     Args:
         path: The file.
-        content: What it should be.
+        content: What it should be; None if it should not be there.
     """
+    if content is None:
+        return Change(path, "stale")
     if not path.exists():
         return Change(path, "new")
     present = path.read_bytes()
@@ -276,12 +263,7 @@ def _diff(present: bytes, content: bytes) -> str:
 
 
 def write(path: Path, content: bytes) -> None:
-    """Replace a file in one step, so that nobody ever reads half of it.
-
-    Args:
-        path: The file; its folder is made if it does not exist.
-        content: All of its bytes.
-    """
+    """Replace a file, or make it and its folder, so that nobody ever reads half of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     descriptor, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
@@ -311,9 +293,8 @@ def _keep_work(course: Course, path: Path, tell: Callable[[str], None]) -> None:
 
 def _was_worked_in(path: Path) -> bool:
     """Tell whether a page was run: the builder writes outputs and counts for no learner."""
-    try:
-        page = nbformat.read(path, as_version=4)
-    except Exception:  # whatever the file is now, it is not what the builder wrote
+    page = pages.read_page(path)
+    if page is None:
         return True
     code = [cell for cell in page.cells if cell.cell_type == "code"]
     return any(cell.outputs or cell.execution_count is not None for cell in code)
@@ -323,12 +304,7 @@ def _was_worked_in(path: Path) -> bool:
 
 
 def answer_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes]:
-    """Return the file of every answer, with its content: the cells as the solution page has them.
-
-    Args:
-        course: Where they belong.
-        lessons: All lessons of the course.
-    """
+    """Return the file and the content of every answer: its cells as the solution page has them."""
     if not _solved(course).parent.is_dir():  # such a course has no package to give hints
         return {}
     texts: dict[str, list[str]] = {}
@@ -348,8 +324,7 @@ def package_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes
 
     Args:
         course: Where they belong.
-        lessons: All lessons of the course, in order; without a cell that saves a file there is no
-            package.
+        lessons: All lessons of the course; without a cell that saves a file there is no package.
 
     Raises:
         LessonError: `ros2 pkg create` failed.

@@ -141,11 +141,12 @@ def run_page(page: NotebookNode, folder: Path) -> None:
 
     Args:
         page: The page; its cells get outputs and execution counts.
-        folder: The kernel's current directory.
+        folder: The kernel's current directory; it is made if it does not exist.
 
     Raises:
         LessonError: A cell failed, did not fail although it was to, or took too long.
     """
+    folder.mkdir(parents=True, exist_ok=True)
     run = _Run(page)
     with kernel_place(f"{page.metadata.rosbeat.lesson}.ipynb") as place:
         try:

@@ -1,9 +1,9 @@
 """Define the rules of a lesson, one function each.
 
-A rule takes a `Desk` (the lesson, its neighbours, the course's folders) and yields every place that
-breaks it; the function's name is the rule's. To add a rule, append it to `LINTS`. Rules protect
-learners and builds from answers that can be read, pages that stop, and links that lead nowhere.
-`docs/authoring.md` describes how a good page reads; no rule counts words.
+A rule takes a `Desk` (the lesson, its neighbours, the course's folders) and yields a `Finding` for
+every place that breaks it; the function's name is the rule's. To add a rule, append it to `LINTS`.
+Rules protect learners and builds from answers that can be read, pages that stop, and links that
+lead nowhere. `docs/authoring.md` describes how a good page reads; no rule counts words.
 """
 
 from __future__ import annotations
@@ -14,10 +14,9 @@ import re
 import tokenize
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 from urllib.parse import unquote
 
 from rosbeat.authoring.source import (
@@ -39,7 +38,6 @@ _ALT = re.compile(r"\balt=(\"[^\"]*\w[^\"]*\"|'[^']*\w[^']*')", re.IGNORECASE)
 _SRC = re.compile(r"\bsrc=[\"']([^\"']*)[\"']", re.IGNORECASE)
 _ELSEWHERE = ("http://", "https://", "mailto:")
 _MACHINE = re.compile(r"(?<![\w.:~/>-])/(?:home|Users|root|tmp|work|mnt|media|var)/\w|\b[A-Z]:\\\w")
-_REPLACING = {"clear_output", "update_display", "display_id"}
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 # Shorter lines of an answer (`pass`, `return`, `count = 0`) are everybody's.
 _SHORTEST = 12
@@ -47,37 +45,23 @@ _SHORTEST = 12
 _EVERYBODYS = {"def__init__(self):"}
 
 
-class Place(NamedTuple):
-    """Describe a position in a lesson that breaks a rule.
+@dataclass(frozen=True)
+class Finding:
+    """Describe a violation: the position in a file, and the rule that is broken.
 
     Attributes:
         line: Line in the lesson source, counted from 1.
         what: Description of the violation.
         to_try: How to fix it.
-    """
-
-    line: int
-    what: str
-    to_try: str = ""
-
-
-@dataclass(frozen=True, order=True)
-class Finding:
-    """Describe a violation: the position in a file, and the rule that is broken.
-
-    Attributes:
         file: The lesson source.
-        line: Line in the file, counted from 1.
         lint: Name of the rule.
-        what: Description of the violation.
-        to_try: How to fix it.
     """
 
-    file: str
     line: int
-    lint: str
     what: str
     to_try: str = ""
+    file: str = ""
+    lint: str = ""
 
     def __str__(self) -> str:
         cure = f" {self.to_try}" if self.to_try else ""
@@ -86,13 +70,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Desk:
-    """Hold one lesson together with the context that a rule may need.
-
-    Attributes:
-        course: The folders that links may point into.
-        lessons: All lessons of the course.
-        lesson: The lesson to check.
-    """
+    """Hold the lesson to check, all lessons, and the folders that links may point into."""
 
     course: Course
     lessons: tuple[Lesson, ...]
@@ -119,20 +97,11 @@ class Desk:
         return [found for cell in self.learner_cells for found in headings(cell)]
 
 
-Lint = Callable[[Desk], Iterator[Place]]
+Lint = Callable[[Desk], Iterator[Finding]]
 
 
 def check_lessons(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -> list[Finding]:
-    """Apply every rule to the chosen lessons.
-
-    Args:
-        course: Where links lead.
-        lessons: All lessons of the course.
-        chosen: The lessons to check.
-
-    Returns:
-        What breaks a rule, by file and line.
-    """
+    """Apply every rule to the chosen lessons; return what breaks one, by file and line."""
     found = []
     for lesson in chosen:
         desk = Desk(course, tuple(lessons), lesson)
@@ -140,31 +109,31 @@ def check_lessons(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -
         for lint in [answer_markers] if any(answer_markers(desk)) else LINTS:
             name = lint.__name__.replace("_", "-")
             file = f"src/lessons/{lesson.path.name}"
-            found += [Finding(file, line, name, *said) for line, *said in lint(desk)]
-    return sorted(found)
+            found += [replace(one, file=file, lint=name) for one in lint(desk)]
+    return sorted(found, key=lambda one: (one.file, one.line, one.lint))
 
 
 # Answers and blanks.
 
 
-def answer_markers(desk: Desk) -> Iterator[Place]:
+def answer_markers(desk: Desk) -> Iterator[Finding]:
     """Require that markers are closed, in order, not nested, and that a blank holds a blank."""
     for cell in desk.lesson.cells:
         try:
             find_blocks(cell.source, "", cell.line)
         except LessonError as error:
             _, line, what = error.what.split(":", 2)
-            yield Place(int(line), what.strip(), error.to_try)
+            yield Finding(int(line), what.strip(), error.to_try)
 
 
-def leaked_answer(desk: Desk) -> Iterator[Place]:
+def leaked_answer(desk: Desk) -> Iterator[Finding]:
     """Require that no line of an answer stands anywhere else on the learner's page."""
     answers = {key: line for cell in desk.code for key, line in _distinctive(cell)}
     for line, text in _page_texts(desk):
         for key, answer in answers.items():
             if key in _squeeze(text):
                 rows = [_squeeze(row) for row in text.split("\n")]
-                yield Place(
+                yield Finding(
                     line + next((n for n, row in enumerate(rows) if key in row), 0),
                     f"the answer {answer.strip()!r} can be read here.",
                     "Reword this place, or move the line out of the answer.",
@@ -202,7 +171,7 @@ def _squeeze(text: str) -> str:
     return re.sub(r"[\s'\"`]+", "", text)
 
 
-def syntax(desk: Desk) -> Iterator[Place]:
+def syntax(desk: Desk) -> Iterator[Finding]:
     """Require that code is Python on both pages, with blanks and with answers."""
     for cell in desk.python:
         texts = {"learner's": learner_text(cell), "solution": with_answers(cell.source)}
@@ -210,74 +179,50 @@ def syntax(desk: Desk) -> Iterator[Place]:
         if wrong:
             what = f"this cell is not Python on the {wrong[0]} page."
             cure = "A forgotten [markdown]? A blank that is only half a line?"
-            yield Place(cell.line, what, cure)
+            yield Finding(cell.line, what, cure)
 
 
-def prose_as_code(desk: Desk) -> Iterator[Place]:
-    """Require that a code cell holds code, and not only sentences behind comment signs."""
-    for cell in (cell for cell in desk.code if not cell.magic):
-        lines = [line.strip() for line in learner_text(cell).split("\n") if line.strip()]
-        if not lines:
-            yield Place(cell.line, "this code cell is empty.")
-        elif not cell.exercise and all(line.startswith("#") for line in lines):
-            cure = "Begin it with '# %% [markdown]'."
-            yield Place(cell.line, "this code cell is prose.", cure)
-
-
-def blank_outside_function(desk: Desk) -> Iterator[Place]:
+def blank_outside_function(desk: Desk) -> Iterator[Finding]:
     """Require that a blank does not run with its cell, which would end the untouched page."""
     for cell in (cell for cell in desk.python if cell.runs):
         for node in _run_at_once(learner_text(cell)):
             if BLANK in _names(node):
-                yield Place(
+                yield Finding(
                     cell.line + getattr(node, "lineno", 1) - 1,
                     f"{BLANK} would be run at once, and the untouched page would stop here.",
                     "Move it into the body of a function or method.",
                 )
 
 
-def stray_blank(desk: Desk) -> Iterator[Place]:
+def stray_blank(desk: Desk) -> Iterator[Finding]:
     """Require that blanks stand in exercises and predictions only."""
     for cell in (cell for cell in desk.code if not (cell.exercise or cell.predict)):
         for number, line in enumerate(learner_text(cell).split("\n"), cell.line):
             if BLANK in line:
                 what = f"{BLANK} stands outside of an exercise."
-                yield Place(number, what, 'Mark the cell exercise="..".')
+                yield Finding(number, what, 'Mark the cell exercise="..".')
 
 
 # Exercises, checks and predictions.
 
 
-def answer_outside_exercise(desk: Desk) -> Iterator[Place]:
+def answer_outside_exercise(desk: Desk) -> Iterator[Finding]:
     """Require that answers stand in exercises and predictions, and that an exercise has one."""
     for cell in desk.lesson.cells:
         blocks = find_blocks(cell.source)
         if blocks and (cell.kind != "code" or not (cell.exercise or cell.predict)):
             line = cell.line + blocks[0].line
             cure = f"Begin the cell with '# %% exercise=\"{desk.lesson.number}a\"'."
-            yield Place(line, "this is no exercise cell.", cure)
+            yield Finding(line, "this is no exercise cell.", cure)
         if cell.exercise and not blocks:
             what = f"exercise {cell.exercise} has no answer."
-            yield Place(cell.line, what)
+            yield Finding(cell.line, what)
         if cell.only and (cell.exercise or cell.check):
             what = "an exercise or its check stands on both pages."
-            yield Place(cell.line, what, "Remove only=.")
+            yield Finding(cell.line, what, "Remove only=.")
 
 
-def exercise_names(desk: Desk) -> Iterator[Place]:
-    """Require that exercises are named NNa, NNb, NNc, in order."""
-    letters, before = iter("abcdefghijklmnopqrstuvwxyz"), None
-    for cell in (cell for cell in desk.lesson.cells if cell.exercise or cell.check):
-        # An exercise may have several cells, one after the other, before its check.
-        if cell.exercise and cell.exercise != before:
-            expected = desk.lesson.number + next(letters)
-            if cell.exercise != expected:
-                what = f"exercise {cell.exercise} would be {expected} by its place on the page."
-                yield Place(cell.line, what, "Rename it, and its check.")
-        before = cell.exercise
-
-
-def exercise_pairs(desk: Desk) -> Iterator[Place]:
+def exercise_pairs(desk: Desk) -> Iterator[Finding]:
     """Require that every exercise has one check below it, and every check its exercise."""
     known: set[str] = set()
     checks = Counter(cell.check for cell in desk.lesson.cells if cell.check)
@@ -286,18 +231,18 @@ def exercise_pairs(desk: Desk) -> Iterator[Place]:
         if cell.exercise and checks[cell.exercise] != 1:
             what = f"exercise {cell.exercise} has {checks[cell.exercise]} check cells."
             cure = f"Give it one, with '# %% check=\"{cell.exercise}\"'."
-            yield Place(cell.line, what, cure)
+            yield Finding(cell.line, what, cure)
         if cell.check and cell.check not in known:
             what = f"check {cell.check} has no exercise above it."
-            yield Place(cell.line, what)
+            yield Finding(cell.line, what)
 
 
-def predictions(desk: Desk) -> Iterator[Place]:
+def predictions(desk: Desk) -> Iterator[Finding]:
     """Require that the learner's page asks, the solution page answers, and both run."""
     for cell in desk.lesson.cells:
         what, cure = _prediction_flaw(cell)
         if what:
-            yield Place(cell.line, what, cure)
+            yield Finding(cell.line, what, cure)
 
 
 def _prediction_flaw(cell: SourceCell) -> tuple[str, str]:
@@ -330,19 +275,19 @@ def _guesses(text: str) -> list[object]:
     ]
 
 
-# Links, images, headings and numbers.
+# Links, images, headings and paths.
 
 
-def broken_link(desk: Desk) -> Iterator[Place]:
+def broken_link(desk: Desk) -> Iterator[Finding]:
     """Require that a link leads to a file of the course, a page, or a heading that exists."""
     for cell in desk.lesson.cells:
         for line, target in _targets(cell):
             problem = _link_problem(desk, target)
             if problem:
-                yield Place(line, f"{target!r} leads nowhere: {problem}.")
+                yield Finding(line, f"{target!r} leads nowhere: {problem}.")
 
 
-def alt_text(desk: Desk) -> Iterator[Place]:
+def alt_text(desk: Desk) -> Iterator[Finding]:
     """Require that an image has words for those who do not see it."""
     for cell in desk.lesson.cells:
         for line, text in prose_lines(cell):
@@ -350,7 +295,7 @@ def alt_text(desk: Desk) -> Iterator[Place]:
             if not named or not all(_ALT.search(tag) for tag in _IMG.findall(text)):
                 what = "an image has no alternative text."
                 cure = "Say in words what it shows: ![what it shows](image.svg)."
-                yield Place(line, what, cure)
+                yield Finding(line, what, cure)
 
 
 def _targets(cell: SourceCell) -> Iterator[tuple[int, str]]:
@@ -387,118 +332,45 @@ def _lesson_at(desk: Desk, path: Path) -> Lesson | None:
     return names.get(path.stem) if is_page else None
 
 
-def page_numbers(desk: Desk) -> Iterator[Place]:
-    """Require that a number belongs to one page, and that a page needs earlier ones."""
-    lesson = desk.lesson
-    twins = [o.name for o in desk.lessons if o.number == lesson.number and o.name != lesson.name]
-    if twins:
-        what = f"the number {lesson.number} also belongs to {', '.join(twins)}."
-        yield Place(1, what, "Rename one of them.")
-    known = {other.number for other in desk.lessons}
-    for number in lesson.header.needs:
-        if number not in known:
-            yield Place(1, f"needs names page {number}, which is not there.")
-        elif number >= lesson.number:
-            yield Place(1, f"needs names page {number}, which comes later.")
-
-
-def title(desk: Desk) -> Iterator[Place]:
+def title(desk: Desk) -> Iterator[Finding]:
     """Require that the page opens with the header's title, the only heading of level 1."""
     wanted = desk.lesson.header.title
-    tops = [(line, text) for line, level, text in desk.headings if level == 1]
-    first = desk.lesson.cells[0] if desk.lesson.cells else None
-    if len(tops) != 1 or desk.headings[0][1] != 1 or not first or first.kind != "markdown":
-        what = f"the page has {len(tops)} headings of level 1; it opens with exactly one."
-        yield Place(1, what, f"Begin the first cell with '# # {wanted}'.")
-    elif tops[0][1] != wanted:
-        what = f"the heading {tops[0][1]!r} is not the title of the header, {wanted!r}."
-        yield Place(tops[0][0], what)
+    tops = [text for _, level, text in desk.headings if level == 1]
+    opening = [text for cell in desk.lesson.cells[:1] for _, _, text in headings(cell)][:1]
+    if tops != [wanted] or opening != [wanted]:
+        what = f"the page has the headings {tops} of level 1; it opens with exactly one."
+        yield Finding(1, what, f"Begin the first cell with '# # {wanted}', as the header says.")
 
 
-def heading_levels(desk: Desk) -> Iterator[Place]:
+def heading_levels(desk: Desk) -> Iterator[Finding]:
     """Require that a heading is at most one level below the one before it."""
     above = 0
     for line, level, text in desk.headings:
         if level > above + 1:
             what = f"{text!r} jumps from level {above} to level {level}."
-            yield Place(line, what)
+            yield Finding(line, what)
         above = level
 
 
-def heading_numbers(desk: Desk) -> Iterator[Place]:
-    """Require that numbers in headings count from 1, and name exercises that exist."""
-    count = 0
-    exercises = {cell.exercise for cell in desk.lesson.cells}
-    for line, _, text in desk.headings:
-        match = re.match(r"(\d+)[.):]? ", text)
-        count += 1 if match else 0
-        if match and int(match[1]) != count:
-            what = f"{text!r} should have the number {count}."
-            yield Place(line, what)
-        for name in re.findall(r"\b\d\d[a-z]\b", text):
-            if name not in exercises:
-                yield Place(line, f"the page has no exercise {name}.")
-
-
-# Code that would never end, could not be compared, or runs on one machine only.
-
-
-def endless(desk: Desk) -> Iterator[Place]:
-    """Require that no cell waits for ever: no spin and no open loop at the top level."""
-    for cell in (cell for cell in desk.python if not cell.saved_as):
-        if any(_never_returns(node) for node in _run_at_once(with_answers(cell.source))):
-            cure = "Run for a bounded time instead: ros.run(seconds=10)."
-            yield Place(cell.line, "this cell would never end.", cure)
-
-
-def unseen_by_nbval(desk: Desk) -> Iterator[Place]:
-    """Require that no output is replaced: nbval compares what came, not what is left."""
-    for cell in desk.python:
-        tree = tree_of(with_answers(cell.source)) or ast.Module([], [])
-        used = {name for node in ast.walk(tree) for name in _names(node)}
-        for name in sorted(_REPLACING & used):
-            what = f"{name} replaces an output, which the tests cannot compare."
-            yield Place(cell.line, what, "Show it once, at the end.")
-
-
-def machine_path(desk: Desk) -> Iterator[Place]:
+def machine_path(desk: Desk) -> Iterator[Finding]:
     """Require that no path of one machine stands in a page."""
     for cell in desk.lesson.cells:
         for number, line in enumerate(cell.source.split("\n"), cell.line):
             if _MACHINE.search(line):
                 what = f"a path of one machine: {line.strip()!r}."
-                yield Place(number, what, "Use a relative path.")
-
-
-def _never_returns(node: ast.AST) -> bool:
-    if isinstance(node, ast.Call):
-        return ast.unparse(node.func).rpartition(".")[2] == "spin"
-    return (
-        isinstance(node, ast.While)
-        and isinstance(node.test, ast.Constant)
-        and bool(node.test.value)
-        and not any(isinstance(inner, (ast.Break, ast.Return)) for inner in ast.walk(node))
-    )
+                yield Finding(number, what, "Use a relative path.")
 
 
 # What rules look at.
 
 
 def learner_text(cell: SourceCell) -> str:
-    """Return what a learner sees of a cell, on the lines it has in the source.
-
-    Args:
-        cell: The cell.
-    """
+    """Return what a learner sees of a cell, on the lines it has in the source."""
     return with_blanks_in_place(cell.source) if cell.kind == "code" else cell.source
 
 
 def tree_of(text: str) -> ast.Module | None:
-    """Parse code, with IPython's magics out of the way; None if it is no Python.
-
-    Args:
-        text: The text of a code cell.
-    """
+    """Parse code, with IPython's magics out of the way; None if it is no Python."""
     if text.lstrip().startswith("%%"):
         return ast.Module([], [])
     plain = [_MAGIC.sub(lambda m: f"{m[1] or m[2] or ''}pass", line) for line in text.split("\n")]
@@ -509,11 +381,7 @@ def tree_of(text: str) -> ast.Module | None:
 
 
 def prose_lines(cell: SourceCell) -> Iterator[tuple[int, str]]:
-    """Yield the lines of a markdown cell that are not fenced code, with their source lines.
-
-    Args:
-        cell: The cell; of a code cell nothing is prose.
-    """
+    """Yield the lines of a markdown cell that are not fenced code, with their source lines."""
     fence = ""
     for number, line in enumerate(cell.source.split("\n"), cell.line):
         match = _FENCE.match(line)
@@ -524,11 +392,7 @@ def prose_lines(cell: SourceCell) -> Iterator[tuple[int, str]]:
 
 
 def headings(cell: SourceCell) -> Iterator[tuple[int, int, str]]:
-    """Yield the headings of a cell: source line, level, text.
-
-    Args:
-        cell: The cell; a code cell has none.
-    """
+    """Yield the headings of a cell: source line, level, text."""
     for number, line in prose_lines(cell):
         match = re.match(r"(#{1,6}) +(.*?) *#*$", line)
         if match:
@@ -553,21 +417,15 @@ def _names(node: ast.AST) -> set[object]:
 LINTS: tuple[Lint, ...] = (
     leaked_answer,
     syntax,
-    prose_as_code,
     blank_outside_function,
     stray_blank,
     answer_outside_exercise,
-    exercise_names,
     exercise_pairs,
     predictions,
     broken_link,
     alt_text,
-    page_numbers,
     title,
     heading_levels,
-    heading_numbers,
-    endless,
-    unseen_by_nbval,
     machine_path,
 )
 """Every rule but `answer_markers`, which comes first: the others rely on it."""

@@ -1,8 +1,7 @@
-"""Build the two trees of pages by applying a list of transformations to each lesson.
+"""Build the two trees of pages from a lesson, in steps that each change the page.
 
-A transformation takes a page, changes it and returns it; the lists are in `notebook_page`
-and `solution_page`. Until the last step, cells carry working notes in their metadata: the line of
-the source, and the tree that they belong to.
+The steps are in `notebook_page` and `solution_page`. Until the last one, a cell's metadata hold the
+line of the source.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import nbformat
@@ -24,11 +22,6 @@ from rosbeat.authoring.execution import DISPLAY_NAME, KERNEL_NAME, run_page
 from rosbeat.authoring.source import HOME, Lesson, SourceCell, with_answers, with_blanks
 from rosbeat.errors import LessonError
 
-Transform = Callable[[NotebookNode], NotebookNode]
-"""Takes a page, changes it, and returns it."""
-
-#: What exercises are worth when nobody says anything: one point each.
-NO_POINTS: Mapping[str, int] = MappingProxyType({})
 #: nbval's tag for a cell whose output is stored and not compared.
 UNCOMPARED = "nbval-ignore-output"
 
@@ -52,31 +45,30 @@ _UNREPEATABLE = {
 
 def notebook_page(
     lesson: Lesson,
-    points: Mapping[str, int] = NO_POINTS,
+    points: Mapping[str, int] | None = None,
     lessons: Sequence[Lesson] = (),
 ) -> NotebookNode:
     """Make the page a learner opens: blanks, no outputs.
 
     Args:
         lesson: The lesson source.
-        points: What each exercise is worth, by its id.
+        points: What each exercise is worth, by its id; one point where nothing is said.
         lessons: All lessons of the course, in order; the page links to its neighbours.
 
     Raises:
         LessonError: An answer marker is wrong.
     """
-    steps = [keep_cells_of("notebook"), rewrite(with_blanks), link_neighbours(lesson, lessons)]
-    return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
+    page = assemble(lesson, "notebook", with_blanks, lessons)
+    return _finished(page, points)
 
 
 def solution_page(
     lesson: Lesson,
     folder: Path,
-    *,
     fresh: bool = False,
-    points: Mapping[str, int] = NO_POINTS,
+    points: Mapping[str, int] | None = None,
     lessons: Sequence[Lesson] = (),
-    run: Transform | None = None,
+    run: Callable[[NotebookNode, Path], object] = run_page,
 ) -> NotebookNode:
     """Make the solution page: answers, run from top to bottom, outputs stored.
 
@@ -84,49 +76,59 @@ def solution_page(
         lesson: The lesson source.
         folder: The kernel's current directory, and where the page is kept.
         fresh: Store new outputs in cells of which the outputs are not compared, too.
-        points: What each exercise is worth, by its id.
+        points: What each exercise is worth, by its id; one point where nothing is said.
         lessons: All lessons of the course, in order.
-        run: The step that runs the page; by default in a fresh kernel of its own.
+        run: Runs the page in the folder; by default in a fresh kernel of its own.
 
     Raises:
         LessonError: An answer marker is wrong, a cell fails, or an output is not repeatable.
     """
-    steps = [
-        *(keep_cells_of("solution"), rewrite(with_answers), link_neighbours(lesson, lessons)),
-        *(run or run_in(folder), merge_streams, quiet_failures, refuse_unrepeatable),
-        *([] if fresh else [keep_uncompared(folder / f"{lesson.name}.ipynb")]),
-    ]
-    return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
+    page = assemble(lesson, "solution", with_answers, lessons)
+    run(page, folder)
+    merge_streams(page)
+    quiet_failures(page)
+    refuse_unrepeatable(page)
+    if not fresh:
+        keep_uncompared(page, folder / f"{lesson.name}.ipynb")
+    return _finished(page, points)
 
 
 def to_bytes(page: NotebookNode) -> bytes:
-    """Return a page as it stands in a file.
-
-    Args:
-        page: The page.
-    """
+    """Return a page as it stands in a file."""
     nbformat.validate(page)
     text: str = nbformat.writes(page)
     return (text.rstrip("\n") + "\n").encode()
 
 
-def _apply(lesson: Lesson, steps: list[Transform]) -> NotebookNode:
-    page = assemble(lesson)
-    for step in steps:
-        page = step(page)
-    return page
+def read_page(path: Path) -> NotebookNode | None:
+    """Read a page; None if there is no notebook in the file."""
+    try:
+        return nbformat.read(path, as_version=4)
+    except Exception:  # whatever the file is, it is nothing that the builder wrote
+        return None
 
 
 # Before a page runs.
 
 
-def assemble(lesson: Lesson) -> NotebookNode:
-    """Make the page that every list begins with: answers and markers are still in its cells.
+def assemble(
+    lesson: Lesson, tree: str, text: Callable[[str], str], lessons: Sequence[Lesson]
+) -> NotebookNode:
+    """Make a page that has not run, with links to its neighbours at its end.
 
     Args:
         lesson: The lesson source.
+        tree: `notebook` or `solution`; cells meant for the other one are left out.
+        text: Fills the answers of a code cell in, or puts blanks in their place.
+        lessons: All lessons of the course, in order; without any there is nothing to link to.
     """
-    page = v4.new_notebook(cells=[_cell(cell) for cell in lesson.cells])
+    cells = [_cell(cell, text) for cell in lesson.cells if cell.only in (None, tree)]
+    links = _neighbours(lesson, lessons)
+    if links:
+        cells.append(v4.new_markdown_cell(links))
+        # Not the same on every page: grading takes ids for a sign of which page a notebook is.
+        cells[-1].id = f"neighbours-{lesson.number}"
+    page = v4.new_notebook(cells=cells)
     # Fixed, so that a newer nbformat does not rewrite every page.
     page.nbformat, page.nbformat_minor = 4, 5
     page.metadata.kernelspec = {
@@ -140,11 +142,12 @@ def assemble(lesson: Lesson) -> NotebookNode:
     return page
 
 
-def _cell(cell: SourceCell) -> Any:  # noqa: ANN401 - untyped library
-    make = v4.new_code_cell if cell.kind == "code" else v4.new_markdown_cell
-    made = make(cell.page_text)
+def _cell(cell: SourceCell, text: Callable[[str], str]) -> Any:  # noqa: ANN401 - untyped library
+    is_code = cell.kind == "code"
+    make = v4.new_code_cell if is_code else v4.new_markdown_cell
+    made = make(text(cell.page_text) if is_code else cell.page_text)
     made.id = cell.id
-    made.metadata.update({"line": cell.line, "only": cell.only})
+    made.metadata.line = cell.line
     if cell.tags:
         made.metadata.tags = list(cell.tags)
     roles = {"exercise": cell.exercise, "check": cell.check}
@@ -152,55 +155,6 @@ def _cell(cell: SourceCell) -> Any:  # noqa: ANN401 - untyped library
     if marks:
         made.metadata.rosbeat = marks
     return made
-
-
-def keep_cells_of(tree: str) -> Transform:
-    """Make the step that drops cells meant for the other tree.
-
-    Args:
-        tree: ``"notebook"`` or ``"solution"``.
-    """
-
-    def keep(page: NotebookNode) -> NotebookNode:
-        page.cells = [cell for cell in page.cells if cell.metadata.only in (None, tree)]
-        return page
-
-    return keep
-
-
-def rewrite(text: Callable[[str], str]) -> Transform:
-    """Make the step that fills answers in, or puts blanks in their place.
-
-    Args:
-        text: Makes the text of a code cell of the page from that of the source.
-    """
-
-    def filled(page: NotebookNode) -> NotebookNode:
-        for cell in _code(page):
-            cell.source = text(cell.source)
-        return page
-
-    return filled
-
-
-def link_neighbours(lesson: Lesson, lessons: Sequence[Lesson]) -> Transform:
-    """Make the step that ends a page with links to the page before, the home page and the next one.
-
-    Args:
-        lesson: The page's source; the home page gets no links, since all of it is one.
-        lessons: All lessons of the course, in order; without any there is nothing to link to.
-    """
-    text = _neighbours(lesson, lessons)
-
-    def link(page: NotebookNode) -> NotebookNode:
-        if text:
-            cell = v4.new_markdown_cell(text)
-            # Not the same on every page: grading takes ids for a sign of which page a notebook is.
-            cell.id = f"neighbours-{lesson.number}"
-            page.cells.append(cell)
-        return page
-
-    return link
 
 
 def _neighbours(lesson: Lesson, lessons: Sequence[Lesson]) -> str:
@@ -224,8 +178,14 @@ def _link(lesson: Lesson) -> str:
     return f"[{lesson.number} {lesson.header.title}]({lesson.name}.ipynb)"
 
 
-def mark_for_nbgrader(points: Mapping[str, int]) -> Transform:
-    """Make the step that tells nbgrader what the cells of exercises and checks are.
+def _finished(page: NotebookNode, points: Mapping[str, int] | None) -> NotebookNode:
+    mark_for_nbgrader(page, points or {})
+    keep_known_metadata(page)
+    return page
+
+
+def mark_for_nbgrader(page: NotebookNode, points: Mapping[str, int]) -> None:
+    """Tell nbgrader what the cells of exercises and checks are.
 
     An institution that runs nbgrader can use the pages as they are; the course itself looks at
     nothing of this. The cells of an answer become solution cells, which learners change; the check
@@ -233,26 +193,22 @@ def mark_for_nbgrader(points: Mapping[str, int]) -> Transform:
     points. The fields are those of the schema's version 3 (`nbgrader/nbgraderformat/v3.py`).
 
     Args:
+        page: The page.
         points: What each exercise is worth, by its id; one point where nothing is said.
     """
-
-    def mark(page: NotebookNode) -> NotebookNode:
-        parts: Counter[str] = Counter()
-        for cell in page.cells:
-            role = cell.metadata.get("rosbeat", {})
-            if "exercise" in role:
-                parts[role.exercise] += 1
-                part = parts[role.exercise]
-                # A second cell of the same exercise has a name of its own.
-                name = role.exercise if part == 1 else f"{role.exercise}-{part}"
-                cell.metadata.nbgrader = _role(name, solution=True)
-            elif "check" in role:
-                worth = points.get(role.check, _USUAL_POINTS)
-                name = f"{role.check}-check"
-                cell.metadata.nbgrader = _role(name, grade=True, locked=True, points=worth)
-        return page
-
-    return mark
+    parts: Counter[str] = Counter()
+    for cell in page.cells:
+        role = cell.metadata.get("rosbeat", {})
+        if "exercise" in role:
+            parts[role.exercise] += 1
+            part = parts[role.exercise]
+            # A second cell of the same exercise has a name of its own.
+            name = role.exercise if part == 1 else f"{role.exercise}-{part}"
+            cell.metadata.nbgrader = _role(name, solution=True)
+        elif "check" in role:
+            worth = points.get(role.check, _USUAL_POINTS)
+            name = f"{role.check}-check"
+            cell.metadata.nbgrader = _role(name, grade=True, locked=True, points=worth)
 
 
 def _role(name: str, **known: int) -> NotebookNode:
@@ -260,7 +216,7 @@ def _role(name: str, **known: int) -> NotebookNode:
     return NotebookNode(fields)
 
 
-def keep_known_metadata(page: NotebookNode) -> NotebookNode:
+def keep_known_metadata(page: NotebookNode) -> None:
     """Drop metadata that Jupyter, nbclient or the builder added on the way.
 
     Versions of Python, times of execution and editors' notes would change from build to build.
@@ -272,32 +228,16 @@ def keep_known_metadata(page: NotebookNode) -> NotebookNode:
         for output in cell.get("outputs", ()):
             if "metadata" in output:
                 output.metadata = NotebookNode()
-    return page
 
 
 def _only(metadata: NotebookNode, names: tuple[str, ...]) -> NotebookNode:
     return NotebookNode({name: metadata[name] for name in names if name in metadata})
 
 
-# The run, and the outputs that it leaves.
+# The outputs that a run leaves.
 
 
-def run_in(folder: Path) -> Transform:
-    """Make the step that runs a page in a fresh kernel.
-
-    Args:
-        folder: The kernel's current directory; it is made if it does not exist.
-    """
-
-    def run(page: NotebookNode) -> NotebookNode:
-        folder.mkdir(parents=True, exist_ok=True)
-        run_page(page, folder)
-        return page
-
-    return run
-
-
-def merge_streams(page: NotebookNode) -> NotebookNode:
+def merge_streams(page: NotebookNode) -> None:
     """Join the chunks of a stream between two other outputs, stdout before stderr.
 
     A kernel sends what is printed whenever a timer says so; where the pieces are cut, and how the
@@ -309,7 +249,6 @@ def merge_streams(page: NotebookNode) -> NotebookNode:
             outputs = list(group)
             merged += _joined(outputs) if is_stream else outputs
         cell.outputs = merged
-    return page
 
 
 def _joined(run: list[Any]) -> Iterator[NotebookNode]:
@@ -319,7 +258,7 @@ def _joined(run: list[Any]) -> Iterator[NotebookNode]:
             yield v4.new_output("stream", name=name, text=text)
 
 
-def quiet_failures(page: NotebookNode) -> NotebookNode:
+def quiet_failures(page: NotebookNode) -> None:
     """Reduce every traceback to the error's name and message.
 
     Frames name files of the machine and lines of the Python version that built the page. Of one
@@ -332,15 +271,10 @@ def quiet_failures(page: NotebookNode) -> NotebookNode:
                 output.traceback = f"{output.ename}: {output.evalue}".split("\n")
             elif output.output_type == "stream" and output.name == "stderr":
                 output.text = quiet_traceback(output.text)
-    return page
 
 
 def quiet_message(message: str) -> str:
-    """Replace the names of a kernel's temporary files, and drop colours.
-
-    Args:
-        message: An exception's text.
-    """
+    """Replace the names of a kernel's temporary files, and drop colours."""
     return _CELL_FILE.sub("cell", _COLOUR.sub("", message))
 
 
@@ -348,15 +282,12 @@ def quiet_traceback(printed: str) -> str:
     """Leave the learner's own frames in tracebacks that a program printed, without files.
 
     The frames of libraries are other ones in another version, and so are the marks below a line.
-
-    Args:
-        printed: What the program wrote to standard error.
     """
     return quiet_message(_MARKS.sub("", _LIBRARY_FRAME.sub("", printed)))
 
 
-def refuse_unrepeatable(page: NotebookNode) -> NotebookNode:
-    """Return the page if its outputs name no address, no folder of this machine and no colour.
+def refuse_unrepeatable(page: NotebookNode) -> None:
+    """Require that outputs name no address, no folder of this machine and no colour.
 
     Raises:
         LessonError: A text output holds one of them.
@@ -373,7 +304,6 @@ def refuse_unrepeatable(page: NotebookNode) -> NotebookNode:
                     "The page would be different on the next run or the next machine.",
                     "Print a value instead of an object, or a path relative to the page.",
                 )
-    return page
 
 
 def _printed_lines(cell: Any) -> Iterator[str]:  # noqa: ANN401 - untyped library
@@ -383,37 +313,27 @@ def _printed_lines(cell: Any) -> Iterator[str]:  # noqa: ANN401 - untyped librar
             yield from text.splitlines()
 
 
-def keep_uncompared(path: Path) -> Transform:
-    """Make the step that takes outputs of tagged cells from the page that is there already.
+def keep_uncompared(page: NotebookNode, path: Path) -> None:
+    """Take outputs of tagged cells from the page that is there already.
 
     What two processes really say to each other cannot come out the same twice. Nothing compares the
     output of such a cell, another cell asserts what matters in it, and a rebuild changes nothing.
 
     Args:
-        path: The page; it need not exist, nor be readable.
+        page: The page that has run.
+        path: The page that is there; it need not exist, nor be readable.
     """
-
-    def keep(page: NotebookNode) -> NotebookNode:
-        before = _uncompared_outputs(path)
-        for cell in filter(_is_uncompared, page.cells):
-            kept = before.get((cell.id, cell.source), [])
-            if [one.output_type for one in kept] == [one.output_type for one in cell.outputs]:
-                cell.outputs = kept
-        return page
-
-    return keep
+    there = read_page(path)
+    stored = filter(_is_uncompared, there.cells if there else ())
+    before = {(one.id, one.source): one.outputs for one in stored}
+    for cell in filter(_is_uncompared, page.cells):
+        kept = before.get((cell.id, cell.source), [])
+        if [one.output_type for one in kept] == [one.output_type for one in cell.outputs]:
+            cell.outputs = kept
 
 
 def _is_uncompared(cell: Any) -> bool:  # noqa: ANN401 - untyped library
     return cell.cell_type == "code" and UNCOMPARED in cell.metadata.get("tags", ())
-
-
-def _uncompared_outputs(path: Path) -> dict[tuple[str, str], list[Any]]:
-    try:
-        page = nbformat.read(path, as_version=4)
-    except Exception:  # whatever the file is, it holds nothing to keep
-        return {}
-    return {(one.id, one.source): one.outputs for one in filter(_is_uncompared, page.cells)}
 
 
 def _code(page: NotebookNode) -> Iterator[Any]:

@@ -124,13 +124,7 @@ class SourceCell:
 
 @dataclass(frozen=True)
 class Lesson:
-    """Hold a parsed lesson source.
-
-    Attributes:
-        path: The source file.
-        header: The metadata at the top of the lesson.
-        cells: The cells, in order.
-    """
+    """Hold a parsed lesson source: its file, its header, and its cells in order."""
 
     path: Path
     header: Header
@@ -167,11 +161,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Course:
-    """Represent a checkout of the course.
-
-    Attributes:
-        root: The folder that contains ``src``, ``notebooks`` and ``solutions``.
-    """
+    """Represent a checkout of the course, by the folder that contains ``src``."""
 
     root: Path
 
@@ -200,10 +190,7 @@ class Course:
 
 
 def find_course(start: Path) -> Course:
-    """Find the course that a folder belongs to.
-
-    Args:
-        start: The folder, or any folder inside the course.
+    """Find the course that a folder is in.
 
     Raises:
         LessonError: Neither the folder nor one above it has ``src/lessons``.
@@ -242,9 +229,6 @@ def choose(lessons: list[Lesson], names: list[str]) -> list[Lesson]:
 
 def read_lesson(path: Path) -> Lesson:
     """Read one lesson source.
-
-    Args:
-        path: A file named ``NN_slug.py`` or ``home.py``.
 
     Raises:
         LessonError: The name, the header or a cell breaks the format.

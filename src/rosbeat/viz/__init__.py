@@ -52,11 +52,6 @@ if TYPE_CHECKING:
     from rosbeat.viz.queues import queue as queue
     from rosbeat.viz.timelines import timeline as timeline
 
-__all__ = [
-    *("Picture", "comparison", "diagram", "graph", "message_flow", "queue", "timeline"),
-    "values",
-]
-
 _HOMES = {
     "Picture": "picture",
     "comparison": "plots",
@@ -67,6 +62,7 @@ _HOMES = {
     "timeline": "timelines",
     "values": "plots",
 }
+__all__ = list(_HOMES)
 #: Names of an earlier version, and what they are called now.
 _RENAMED = {"crossing": "message_flow", "differences": "comparison"}
 

@@ -8,6 +8,7 @@ covers the figure and counts pixels from the lower left corner.
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
-from matplotlib.patches import FancyBboxPatch, PathPatch, Polygon, Rectangle
+from matplotlib.patches import Ellipse, FancyBboxPatch, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.textpath import TextPath
@@ -37,6 +38,8 @@ ROOM = theme.WIDTH - 2 * theme.MARGIN
 _PIXELS_PER_POINT = theme.DPI / 72
 #: Height of a line of text in units of its font size.
 _LINE = 1.35
+#: A text up to the next `/`, `_` or blank; a leading slash stays with what follows it.
+_PART = re.compile(r"(?:^/)?[^/_ ]+[/_ ]?|(?:^/)?[/_ ]")
 #: Widest line of a lane's name.
 _LANE_NAMES = 170.0
 
@@ -66,23 +69,13 @@ def wrap(name: str, limit: float) -> tuple[str, ...]:
     A part that is wider than the limit on its own is broken anywhere.
     """
     rows = [""]
-    for part in _parts(name):
+    for part in _PART.findall(name):
         pieces = [part] if text_width(part) <= limit else list(part)
         for piece in pieces:
             if rows[-1] and text_width(rows[-1] + piece) > limit:
                 rows.append("")
             rows[-1] += piece
     return tuple(row.strip() for row in rows)
-
-
-def _parts(name: str) -> list[str]:
-    """Cut a text after every `/`, `_` and blank; a leading slash stays with what follows it."""
-    parts = [""]
-    for letter in name:
-        parts[-1] += letter
-        if letter in "/_ " and parts != ["/"]:
-            parts.append("")
-    return [part for part in parts if part]
 
 
 # Times as places on an axis.
@@ -118,13 +111,7 @@ class TimeScale:
 
 
 def lane_scale(names: Sequence[str], seconds: float, least: float = 0.0) -> TimeScale:
-    """Return the scale for lanes, with room at the left for their names.
-
-    Args:
-        names: Names of the lanes.
-        seconds: Time at the right end.
-        least: Least room for the names, in CSS pixels.
-    """
+    """Return the scale of `seconds` for lanes, with room for their names at the left."""
     wide = max(text_width(row) for name in names for row in wrap(name, _LANE_NAMES))
     left = theme.MARGIN + max(wide, least) + 24
     return TimeScale(seconds, left, theme.WIDTH - theme.MARGIN - 34)
@@ -138,13 +125,7 @@ _RADIUS = 9.0
 
 @dataclass(frozen=True)
 class Stroke:
-    """Describe how an arrow looks.
-
-    Attributes:
-        colour: Of line and head.
-        dash: Matplotlib line style.
-        width: Line width in points.
-    """
+    """Describe how an arrow looks: its colour, matplotlib line style, and width in points."""
 
     colour: str = theme.INK
     dash: str | tuple[float, tuple[float, ...]] = "-"
@@ -157,12 +138,7 @@ PLAIN = Stroke()
 
 
 def smooth(points: Sequence[Point], downward: bool = False) -> Path:
-    """Return a smooth line through the points, running along the flow at each of them.
-
-    Args:
-        points: At least two.
-        downward: Whether the flow runs down instead of to the right.
-    """
+    """Return a smooth line through the points, along the flow (to the right or down) at each."""
     vertices, codes = [points[0]], [Path.MOVETO]
     for (x0, y0), (x1, y1) in itertools.pairwise(points):
         if downward:
@@ -230,10 +206,7 @@ class Canvas:
     """Hold a figure with axes that count CSS pixels.
 
     Attributes:
-        figure: The figure.
         axes: Axes over the whole figure, x from 0 to `width`, y from 0 (bottom) to `height`.
-        width: Of the figure.
-        height: Of the figure.
         bottom: Lower end of what is drawn, above the note if there is one.
         top: Upper end of what is drawn, below the heading and the key if there are any.
     """
@@ -258,6 +231,42 @@ class Canvas:
         return self.axes.text(
             x, y, words, color=colour, ha=align, va="center_baseline", weight=weight
         )
+
+    def shape(
+        self,
+        middle: Point,
+        size: Point,
+        radius: float | None,
+        fill: str,
+        edge: str,
+        width: float,
+        dash: str = "-",
+        layer: float = 3,
+    ) -> None:
+        """Draw a rectangle with corners of this radius, or an ellipse if there is none."""
+        look: dict[str, Any] = {"fc": fill, "ec": edge, "lw": width, "ls": dash, "zorder": layer}
+        if radius is None:
+            self.axes.add_patch(Ellipse(middle, *size, **look))
+            return
+        corner = (middle[0] - size[0] / 2, middle[1] - size[1] / 2)
+        box = f"round,pad=0,rounding_size={radius}"
+        self.axes.add_patch(FancyBboxPatch(corner, *size, box, **look))
+
+    def mark(
+        self,
+        x: float,
+        y: float,
+        look: theme.Style,
+        size: float,
+        rim: str = "",
+        width: float = 1.0,
+        layer: float = 4,
+        fill: str = "",
+    ) -> None:
+        """Draw one mark of `size` points, in its own colour where rim or fill have none."""
+        fill, rim = fill or look.colour, rim or look.colour
+        more: dict[str, Any] = {"mfc": fill, "mec": rim, "mew": width, "zorder": layer}
+        self.axes.plot([x], [y], look.marker, ms=size, **more)
 
     def time_axis(self, scale: TimeScale, bottom: float, top: float) -> None:
         """Draw rules from `bottom` to `top`, and the times below them."""
@@ -286,11 +295,9 @@ class Canvas:
         is_centred: bool = False,
     ) -> None:
         """Draw a rounded frame with its label on the upper edge, below everything else."""
-        look: dict[str, Any] = {"fc": theme.FRAME_FILL, "ec": theme.FRAME, "lw": 1.1, "zorder": 0.3}
-        look |= {"ec": theme.INK, "lw": 2.2} if strong else {}
-        box = "round,pad=0,rounding_size=10"
-        size = (right - left, top - bottom)
-        self.axes.add_patch(FancyBboxPatch((left, bottom), *size, boxstyle=box, **look))
+        edge, width = (theme.INK, 2.2) if strong else (theme.FRAME, 1.1)
+        middle, size = ((left + right) / 2, (bottom + top) / 2), (right - left, top - bottom)
+        self.shape(middle, size, 10, theme.FRAME_FILL, edge, width, layer=0.3)
         x, align = ((left + right) / 2, "center") if is_centred else (left + FRAME_INDENT, "left")
         colour, weight = (theme.INK, "bold") if strong else (theme.MUTED, "normal")
         label = self.text(x, top, words, colour, align, weight)
@@ -422,8 +429,6 @@ def _draw_key_row(canvas: Canvas, row: Sequence[Entry], y: float) -> None:
         if look.dash:
             canvas.axes.plot(ends, [y, y], color=look.colour, ls=look.dash, lw=1.6)
         if look.marker:
-            inside = entry.fill or look.colour
-            middle = [x + (_KEY_MARK - 6) / 2]
-            canvas.axes.plot(middle, [y], look.marker, ms=6, mfc=inside, mec=look.colour)
+            canvas.mark(x + (_KEY_MARK - 6) / 2, y, look, 6, layer=2, fill=entry.fill)
         canvas.text(x + _KEY_MARK, y, entry.words)
         x += _entry_width(entry)

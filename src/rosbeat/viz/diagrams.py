@@ -10,9 +10,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
-from typing import Any
-
-from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
 
 from rosbeat.errors import PictureError, called_as
 from rosbeat.viz import theme
@@ -70,14 +67,12 @@ class Arrow:
         target: Name of the box where it ends.
         words: What is written beside it.
         is_sideways: Whether an arrow around a corner leaves its box sideways.
-        has_two_heads: Whether it has a head at both ends.
     """
 
     source: str
     target: str
     words: str = ""
     is_sideways: bool = False
-    has_two_heads: bool = False
 
 
 @dataclass(frozen=True)
@@ -136,6 +131,8 @@ _LOOKS = {
     "program": (theme.NODE_FILL, theme.BLUE),
     "file": (theme.CARD, theme.INK),
 }
+#: Radius of the corners; an ellipse has none.
+_RADII = {"node": None, "topic": 5, "program": 9, "file": 1}
 
 
 @called_as('viz.diagram("03")')
@@ -145,9 +142,6 @@ def diagram(name: str) -> Picture:
     Args:
         name: The number of a page, for a map with the part that the page is about; or `workspace`,
             `overlay`, `entry point`.
-
-    Returns:
-        The picture.
 
     Raises:
         PictureError: If there is no such diagram.
@@ -282,8 +276,7 @@ def _draw(canvas: Canvas, shown: Diagram, grid: _Grid) -> None:
     for arrow in sorted(shown.arrows, key=lambda one: shown.highlights(one.source, one.target)):
         bright = shown.highlights(arrow.source, arrow.target)
         points = [on_canvas(point) for point in grid.way(arrow)]
-        for way in (points, points[::-1])[: 1 + arrow.has_two_heads]:
-            canvas.arrow(cornered(way), _BRIGHT if bright else _QUIET)
+        canvas.arrow(cornered(points), _BRIGHT if bright else _QUIET)
         if arrow.words:
             x, y, align = grid.beside(arrow)
             colour = theme.INK if bright else theme.MUTED
@@ -298,22 +291,11 @@ def _draw_box(canvas: Canvas, box: Box, at: Point, bright: bool) -> None:
     if box.kind == "text":
         x, align, weight = at[0] - box.size[0] / 2, "left", "normal"
     else:
-        canvas.axes.add_patch(_outline(box, at, bright))
+        fill, edge = _LOOKS[box.kind] if bright else (theme.CARD, theme.FRAME)
+        canvas.shape(at, box.size, _RADII[box.kind], fill, edge, 2.2 if bright else 1.1)
     for rank, row in enumerate(rows):
         y = at[1] + ((len(rows) - 1) / 2 - rank) * line_height()
         canvas.text(x, y, row, theme.INK if bright else theme.MUTED, align, weight)
-
-
-def _outline(box: Box, at: Point, bright: bool) -> Patch:
-    width, height = box.size
-    fill, edge = _LOOKS[box.kind] if bright else (theme.CARD, theme.FRAME)
-    look: dict[str, Any] = {"fc": fill, "ec": edge, "lw": 2.2 if bright else 1.1, "zorder": 3}
-    if box.kind == "node":
-        return Ellipse(at, width, height, **look)
-    corner = (at[0] - width / 2, at[1] - height / 2)
-    radius = {"topic": 5, "program": 9}.get(box.kind, 1)
-    shape = f"round,pad=0,rounding_size={radius}"
-    return FancyBboxPatch(corner, width, height, shape, **look)
 
 
 # The same in words.
@@ -547,7 +529,8 @@ DIAGRAMS = {
     "11": _beyond(
         _page("a topic, recorded and replayed", _TOPIC, _BAG, _MONITOR),
         *(_BAG, "file", "A bag records what is published on /temperature, and replays it."),
-        Arrow(_TOPIC, _BAG, has_two_heads=True),
+        Arrow(_TOPIC, _BAG),
+        Arrow(_BAG, _TOPIC),
     ),
     "12": _beyond(
         _page("what nodes have besides topics", _SENSOR, _MONITOR, _SERVICE),

@@ -10,9 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any
-
-from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
 
 from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
 from rosbeat.errors import PictureError, called_as
@@ -48,6 +45,8 @@ from rosbeat.viz.wiring import Edge, Wiring, describe, node_key, short_type, top
 #: Widest line of a name in CSS pixels, tried in this order.
 _LIMITS = (200.0, 150.0, 115.0, 95.0)
 _TOPIC_PADDING, _NOTE_PADDING = (13.0, 7.0), (5.0, 5.0)
+#: Begins the key of a note.
+_NOTE = "note "
 
 
 # What is written in boxes, and how large that makes them.
@@ -97,14 +96,19 @@ class Label:
 
     def draw(self, canvas: Canvas, x: float, y: float) -> None:
         """Draw box and text with the middle at (`x`, `y`), in CSS pixels."""
+        if self.is_node:
+            fill = theme.NODE_FILL_STRONG if self.strong else theme.NODE_FILL
+            edge, radius = theme.ALERT if self.dashed else theme.BLUE, None
+        else:
+            fill = theme.TOPIC_FILL_STRONG if self.strong else theme.TOPIC_FILL
+            edge, radius = theme.ALERT if self.broken else theme.TOPIC_EDGE, 4.0
         if self.shape != "note":
-            canvas.axes.add_patch(self._box(x, y))
+            width, dash = 2.6 if self.strong else 1.3, "--" if self.dashed else "-"
+            canvas.shape((x, y), self.size, radius, fill, edge, width, dash)
         if self.dashed and self.is_node:
             # A cross on the rim, at the upper right.
-            width, height = self.size
-            at = (x + width / 2 * 0.62, y + height / 2 * 0.78)
-            look: dict[str, Any] = {"color": theme.ALERT, "mec": theme.CARD, "zorder": 5}
-            canvas.axes.plot(*at, marker="X", ms=12, mew=1.2, **look)
+            at = (x + self.size[0] / 2 * 0.62, y + self.size[1] / 2 * 0.78)
+            canvas.mark(*at, theme.Style(theme.ALERT, "X", ""), 12, theme.CARD, 1.2, layer=5)
         for rank, line in enumerate(self.lines):
             middle = y + ((len(self.lines) - 1) / 2 - rank) * line_height()
             canvas.text(x, middle, line.words, line.colour, "center", self._weight(line))
@@ -113,47 +117,21 @@ class Label:
         """Return the weight of a line: only the name in a highlighted box is bold."""
         return "bold" if self.strong and line.colour == theme.INK else "normal"
 
-    def _box(self, x: float, y: float) -> Patch:
-        width, height = self.size
-        look: dict[str, Any] = {"lw": 2.6 if self.strong else 1.3, "zorder": 3}
-        look["ls"] = "--" if self.dashed else "-"
-        if self.is_node:
-            fill = theme.NODE_FILL_STRONG if self.strong else theme.NODE_FILL
-            edge = theme.ALERT if self.dashed else theme.BLUE
-            return Ellipse((x, y), width, height, fc=fill, ec=edge, **look)
-        fill = theme.TOPIC_FILL_STRONG if self.strong else theme.TOPIC_FILL
-        edge = theme.ALERT if self.broken else theme.TOPIC_EDGE
-        corner = (x - width / 2 + 3, y - height / 2 + 3)
-        box = "round,pad=3,rounding_size=4"
-        return FancyBboxPatch(corner, width - 6, height - 6, box, fc=fill, ec=edge, **look)
 
-
-def node_label(
+def _label(
+    shape: str,
     name: str,
     limit: float,
     strong: bool,
-    faults: tuple[str, ...] = (),
-    stopped: bool = False,
+    types: Iterable[str] = (),
+    wrong: Collection[str] = (),
+    dashed: bool = False,
 ) -> Label:
-    """Return the label of a node: its name, broken at `limit` CSS pixels, and what is wrong."""
+    """Return a label with a name broken at `limit` CSS pixels, its types, and what is wrong."""
     lines = [Line(row) for row in wrap(name, limit)]
-    lines += [Line(row, theme.ALERT_TEXT) for one in faults for row in wrap(one, limit)]
-    return Label(tuple(lines), "node", strong=strong, dashed=stopped)
-
-
-def topic_label(
-    name: str,
-    types: tuple[str, ...],
-    faults: tuple[str, ...],
-    limit: float,
-    strong: bool,
-    unused: bool = False,
-) -> Label:
-    """Return the label of a topic: name, types without their package, what is wrong."""
-    lines = [Line(row) for row in wrap(name, limit)]
-    lines += [Line(short_type(kind), theme.MUTED) for kind in types]
-    lines += [Line(row, theme.ALERT_TEXT) for one in faults for row in wrap(one, limit)]
-    return Label(tuple(lines), "topic", strong=strong, broken=bool(faults), dashed=unused)
+    lines += [Line(one, theme.MUTED) for one in types]
+    lines += [Line(row, theme.ALERT_TEXT) for one in wrong for row in wrap(one, limit)]
+    return Label(tuple(lines), shape, strong, bool(wrong), dashed)
 
 
 # The causes of an explanation, marked in its graph.
@@ -166,18 +144,19 @@ class Marked:
     Attributes:
         plain: The nodes, topics and arrows without marks.
         wiring: The nodes, topics and arrows; arrows lead through the notes.
-        notes: Words of each note by its key.
-        stopped: Words below the names of nodes that do not run, by the node's name.
-        twins: Words below a name that several nodes have, by the name.
-        unused: Names of topics that nobody uses, and words about them.
+        words: What is wrong with a node or topic, and the words of a note, by its key.
+        dashed: Keys of nodes that do not run, and of topics that nobody uses.
     """
 
     plain: Wiring
     wiring: Wiring
-    notes: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    stopped: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    twins: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    unused: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    words: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    dashed: frozenset[str] = frozenset()
+
+    @property
+    def notes(self) -> list[str]:
+        """Return the keys of the notes."""
+        return [key for key in self.words if key.startswith(_NOTE)]
 
     def edges(self) -> list[Edge]:
         """Return all arrows: along topics, and from clients to those who offer what they use."""
@@ -185,12 +164,7 @@ class Marked:
 
 
 def marked(source: Explanation, infrastructure: bool = False) -> Marked:
-    """Mark the causes in the graph of an explanation.
-
-    Args:
-        source: The explanation.
-        infrastructure: Whether to show the topics that every node brings along, too.
-    """
+    """Mark the causes in the graph of an explanation."""
     # The topic that is asked about is shown even if every node brings it along.
     brought = set(source.graph.topics(True)) - set(source.graph.topics())
     plain = wiring(source.graph, infrastructure or source.topic in brought)
@@ -201,18 +175,18 @@ def marked(source: Explanation, infrastructure: bool = False) -> Marked:
 
 
 def _with(made: Marked, mark: Mark) -> Marked:
-    if mark.kind == NODE:
-        return replace(made, stopped={**made.stopped, mark.subject: mark.words})
-    if mark.kind == TWINS:
-        return replace(made, twins={**made.twins, mark.subject: mark.words})
-    if mark.kind == TOPIC:
-        topics = {**made.wiring.topics, mark.subject: ()}
-        shown = replace(made.wiring, topics=topics)
-        return replace(made, wiring=shown, unused={**made.unused, mark.subject: mark.words})
     if mark.kind == NEAR:
         return _noted(made, mark, topic_key(mark.subject), topic_key(mark.other))
-    ends = (node_key(mark.subject), topic_key(mark.other))
-    return _noted(made, mark, *(ends if mark.side == "publisher" else ends[::-1]))
+    if mark.kind == LINK:
+        ends = (node_key(mark.subject), topic_key(mark.other))
+        return _noted(made, mark, *(ends if mark.side == "publisher" else ends[::-1]))
+    is_topic, shown = mark.kind == TOPIC, made.wiring
+    key = topic_key(mark.subject) if is_topic else node_key(mark.subject)
+    if is_topic:
+        shown = replace(shown, topics={**shown.topics, mark.subject: ()})
+    words = {**made.words, key: made.words.get(key, ()) + mark.words}
+    dashed = made.dashed if mark.kind == TWINS else made.dashed | {key}
+    return Marked(made.plain, shown, words, dashed)
 
 
 def _noted(made: Marked, mark: Mark, source: str, target: str) -> Marked:
@@ -220,11 +194,11 @@ def _noted(made: Marked, mark: Mark, source: str, target: str) -> Marked:
     edges = [one for one in made.wiring.edges if (one.source, one.target) != (source, target)]
     if mark.kind == LINK and len(edges) == len(made.wiring.edges):
         return made  # a hidden node
-    key = f"note {source} > {target}"
+    key = f"{_NOTE}{source} > {target}"
     edges.append(Edge(source, key, "marked", has_head=False))
     edges.append(Edge(key, target, "marked", has_head=mark.kind == LINK))
     shown = replace(made.wiring, edges=tuple(edges))
-    return replace(made, wiring=shown, notes={**made.notes, key: mark.words})
+    return replace(made, wiring=shown, words={**made.words, key: mark.words})
 
 
 def say(source: Explanation) -> str:
@@ -269,9 +243,6 @@ def graph(
         highlight: Name of a node or topic, or several, to draw boldly.
         infrastructure: Whether to show `/rosout`, `/parameter_events` and `/clock`, too.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If there is no node, or a highlighted name is not in the graph.
     """
@@ -304,13 +275,7 @@ def graph(
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Hold a placement with its labels, and whether it flows down instead of to the right.
-
-    Attributes:
-        labels: What is written in each box.
-        placement: Where the boxes, the arrows and the frames are.
-        down: Whether it flows down.
-    """
+    """Hold a placement with its labels, and whether it flows down instead of to the right."""
 
     labels: dict[str, Label]
     placement: Placement
@@ -336,9 +301,9 @@ def arrange(shown: Marked, strong: Collection[str] = ()) -> Arrangement:
         shown: The graph.
         strong: Full names of nodes and topics whose names are bold.
     """
-    across = _plan(shown, down=False)
-    down = not any(_fits(across, _labels(shown, (), limit)) for limit in _LIMITS)
-    plan = _plan(shown, down)
+    plan = _rimmed(_plan(shown), down=False)
+    down = not any(_fits(plan, _labels(shown, (), limit)) for limit in _LIMITS)
+    plan = _rimmed(plan, down)
     for limit in _LIMITS:
         labels = _labels(shown, strong, limit)
         made = Arrangement(labels, place(plan, _sizes(labels, down), 0.0 if down else ROOM), down)
@@ -351,7 +316,7 @@ def _fits(plan: Layering, labels: dict[str, Label]) -> bool:
     return needed(plan, _sizes(labels, down=False)) <= ROOM
 
 
-def _plan(shown: Marked, down: bool) -> Layering:
+def _plan(shown: Marked) -> Layering:
     starts = {node_key(name): 0 for name in shown.wiring.nodes}
     starts.update((topic_key(name), 1) for name in shown.wiring.topics)
     starts.update(dict.fromkeys(shown.notes, 1))
@@ -362,7 +327,7 @@ def _plan(shown: Marked, down: bool) -> Layering:
         groups = [list(map(node_key, names)) for names in shown.wiring.processes]
         others = [name for name, column in starts.items() if column == 1]
         plan = clustered(plan, enclosed(groups, [*plan.chains, *plan.back], others))
-    return _rimmed(plan, down)
+    return plan
 
 
 def _rimmed(plan: Layering, down: bool) -> Layering:
@@ -382,22 +347,20 @@ def _sizes(labels: dict[str, Label], down: bool) -> dict[str, Point]:
 
 def _labels(shown: Marked, strong: Collection[str], limit: float) -> dict[str, Label]:
     labels: dict[str, Label] = {}
-    for key, words in shown.notes.items():
-        lines = [Line(one, theme.ALERT_TEXT) for one in words]
+    for key in shown.notes:
+        lines = [Line(one, theme.ALERT_TEXT) for one in shown.words[key]]
         labels[key] = Label(tuple(lines), "note")
     for name in shown.wiring.nodes:
-        stopped, twins = shown.stopped.get(name, ()), shown.twins.get(name, ())
-        wrong = (stopped + twins, bool(stopped))
-        labels[node_key(name)] = node_label(name, limit, name in strong, *wrong)
+        key = node_key(name)
+        wrong, dashed = shown.words.get(key, ()), key in shown.dashed
+        labels[key] = _label("node", name, limit, name in strong, (), wrong, dashed)
     for name, types in shown.wiring.topics.items():
-        unused = shown.unused.get(name, ())
-        said = shown.plain.faults(name) or unused
-        look = (limit, name in strong, bool(unused))
-        labels[topic_key(name)] = topic_label(name, types, said, *look)
+        key, short = topic_key(name), map(short_type, types)
+        wrong, dashed = shown.plain.faults(name) or shown.words.get(key, ()), key in shown.dashed
+        labels[key] = _label("topic", name, limit, name in strong, short, wrong, dashed)
     for offer in shown.wiring.offers:
         kind = f"{offer.word} {short_type(offer.type_name)}"
-        look = (limit, offer.name in strong, False)
-        labels[offer.key] = topic_label(offer.name, (kind,), (), *look)
+        labels[offer.key] = _label("topic", offer.name, limit, offer.name in strong, [kind])
     return labels
 
 

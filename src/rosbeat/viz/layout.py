@@ -142,19 +142,20 @@ def back_links(names: Sequence[str], links: Sequence[Link]) -> list[Link]:
     targets = {name: [end for start, end in links if start == name] for name in names}
     reached = {end for _, end in links}
     done: set[str] = set()
+    path: list[str] = []
     back: list[Link] = []
+
+    def visit(name: str) -> None:
+        path.append(name)
+        back.extend((name, end) for end in targets[name] if end in path)
+        for end in targets[name]:
+            if end not in done and end not in path:
+                visit(end)
+        done.add(path.pop())
+
     for root in sorted(names, key=lambda name: name in reached):
-        path: list[str] = []
-        todo = [(root, False)]
-        while todo:
-            name, is_leaving = todo.pop()
-            if is_leaving:
-                done.add(path.pop())
-            elif name not in done and name not in path:
-                path.append(name)
-                back += [(name, end) for end in targets[name] if end in path]
-                todo.append((name, True))
-                todo += [(end, False) for end in reversed(targets[name]) if end not in path]
+        if root not in done:
+            visit(root)
     return back
 
 
@@ -185,17 +186,14 @@ def _chain(link: Link, columns: dict[str, int], layers: Layers) -> tuple[str, ..
 def _untangled(plan: Layering) -> Layering:
     """Return the plan with the columns reordered so that few arrows cross."""
     before, after = plan.neighbours()
-    layers = plan.layers
-    best, fewest = layers, _crossings(layers, after)
+    tried = [plan.layers]
     for sweep in range(_ORDER_SWEEPS):
-        layers = [list(layer) for layer in layers]
+        layers = [list(layer) for layer in tried[-1]]
         order, sides = (1, before) if sweep % 2 == 0 else (-1, after)
         for layer in layers[::order]:
             _sort(layer, layers, sides)
-        crossings = _crossings(layers, after)
-        if crossings < fewest:
-            best, fewest = layers, crossings
-    return replace(plan, layers=best)
+        tried.append(layers)
+    return replace(plan, layers=min(tried, key=lambda layers: _crossings(layers, after)))
 
 
 def _sort(layer: list[str], layers: Layers, sides: dict[str, list[str]]) -> None:
@@ -246,12 +244,7 @@ def enclosed(
 
 
 def clustered(plan: Layering, groups: Sequence[Collection[str]]) -> Layering:
-    """Reorder columns so that each group can have a frame.
-
-    Args:
-        plan: Columns and order.
-        groups: Names that get a frame; no name is in two groups.
-    """
+    """Reorder columns so that each group can have a frame; no name may be in two groups."""
     place = {name: (rank + 0.5) / len(one) for one in plan.layers for rank, name in enumerate(one)}
     members = [set(group) for group in groups]
     for chain in plan.chains.values():

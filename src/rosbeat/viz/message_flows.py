@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Protocol, runtime_checkable
 
 from matplotlib.path import Path
 
@@ -31,11 +31,14 @@ _VALUES = 8
 _SENT = theme.Style(theme.BLUE, "s", "")
 _RECEIVED = theme.Style(theme.TAKEN, "o", "")
 _MESSAGE = theme.Style(theme.BLUE, "", "-")
-_LOST = theme.Style(theme.ALERT, "s", "")
-_EARLY = theme.Style(theme.MUTED, "D", "")
-_LATE = theme.Style(theme.MUTED, "s", "")
-_STRANGE = theme.Style(theme.PURPLE, "o", "")
 _OTHER = theme.Style(theme.MUTED, "|", "")
+#: What may become of a line without a partner, in the words of the key, and its hollow mark.
+_ALONE = {
+    "early": ("sent before anybody was listening", theme.Style(theme.MUTED, "D", "")),
+    "lost": ("lost message", theme.Style(theme.ALERT, "s", "")),
+    "late": ("sent after the receiver's last line", theme.Style(theme.MUTED, "s", "")),
+    "strange": ("not among what was sent", theme.Style(theme.PURPLE, "o", "")),
+}
 
 
 @runtime_checkable
@@ -58,11 +61,15 @@ class Line:
         time_ns: When it was logged, in nanoseconds.
         words: The number as it was written.
         partner: Place of the line of the same message in the other log, or None.
+        fate: `arrived` if it has a partner; otherwise, of what was sent, `early` before anything
+            arrived, when nobody was listening yet, `late` after the receiver's last line, when
+            nobody can say if it arrived, or `lost`; of what was received, `strange`.
     """
 
     time_ns: int
     words: str
     partner: int | None = None
+    fate: str = "arrived"
 
     @property
     def value(self) -> float:
@@ -77,56 +84,27 @@ class Pairs:
     Attributes:
         sent: Lines of the sender that carry a number, in order.
         received: Lines of the receiver that carry a number, in order.
+        others: When each side logged lines without a number, in nanoseconds.
+        names: Who logged the lines of each side.
         skipped: How many later lines of the sender are left out.
     """
 
     sent: tuple[Line, ...]
     received: tuple[Line, ...]
-    skipped: int = 0
+    others: tuple[list[int], list[int]]
+    names: tuple[str, str]
+    skipped: int
 
-    @property
-    def arrived(self) -> tuple[Line, ...]:
-        """Return what was sent and received."""
-        return tuple(line for line in self.sent if line.partner is not None)
-
-    @property
-    def late(self) -> tuple[Line, ...]:
-        """Return what was sent after the receiver's last line: nobody can say if it arrived."""
-        if not self.received:
-            return ()
-        last = max(line.time_ns for line in self.received)
-        return tuple(one for one in self.sent if one.partner is None and one.time_ns > last)
-
-    @property
-    def lost(self) -> tuple[Line, ...]:
-        """Return what was sent between messages that arrived, and not received."""
-        others = {*self.early, *self.late}
-        return tuple(one for one in self.sent if one.partner is None and one not in others)
-
-    @property
-    def early(self) -> tuple[Line, ...]:
-        """Return what was sent before anything arrived: nobody was listening yet.
-
-        When a subscription is matched with its publisher, no log tells.
-        """
-        late = self.late
-        before = itertools.takewhile(lambda line: line.partner is None, self.sent)
-        return tuple(one for one in before if one not in late)
-
-    @property
-    def strange(self) -> tuple[Line, ...]:
-        """Return what was received although the sender's lines do not have it."""
-        return tuple(line for line in self.received if line.partner is None)
+    def those(self, fate: str) -> list[Line]:
+        """Return the lines of one fate; of what arrived those of the sender."""
+        lines = self.received if fate == "strange" else self.sent
+        return [line for line in lines if line.fate == fate]
 
 
 def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
     """Pair the lines that carry the same number, in order, as many as possible.
 
     The number is the first one in the text. If there is a choice, lines close in time are paired.
-
-    Args:
-        sent: What the sender logged.
-        received: What the receiver logged.
     """
     every, others = _numbered(sent), _numbered(received)
     here = every[:MOST]
@@ -135,11 +113,21 @@ def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
     there = others[: 2 * MOST]
     links = _links(here, there)
     back = {target: source for source, target in links.items()}
-    return Pairs(
-        tuple(Line(one.time_ns, one.words, links.get(rank)) for rank, one in enumerate(here)),
-        tuple(Line(one.time_ns, one.words, back.get(rank)) for rank, one in enumerate(there)),
-        len(every) - len(here),
-    )
+    first, last = min(links, default=len(here)), max((one.time_ns for one in there), default=inf)
+    ours = []
+    for rank, line in enumerate(here):
+        fate = "late" if line.time_ns > last else "early" if rank < first else "lost"
+        ours.append(_joined(line, links.get(rank), fate))
+    theirs = [_joined(line, back.get(rank), "strange") for rank, line in enumerate(there)]
+    skipped = len(every) - len(here)
+    end = max(one.time_ns for one in (*here, *there)) if skipped else inf
+    beside = _others(sent, end), _others(received, end)
+    names = _name_of(sent), _name_of(received)
+    return Pairs(tuple(ours), tuple(theirs), beside, names, skipped)
+
+
+def _joined(line: Line, partner: int | None, alone: str) -> Line:
+    return replace(line, partner=partner, fate=alone if partner is None else "arrived")
 
 
 def first_number(text: str) -> str:
@@ -154,28 +142,29 @@ def _numbered(records: Sequence[LogRecord]) -> list[Line]:
     return sorted(lines, key=lambda line: line.time_ns)
 
 
+def _others(records: Sequence[LogRecord], end: float) -> list[int]:
+    times = (one.time_ns for one in records if not first_number(one.text))
+    return [time for time in times if time <= end]
+
+
+def _name_of(records: Iterable[LogRecord]) -> str:
+    """Return who logged these lines: one name, or several if a process has several nodes."""
+    return listing(dict.fromkeys(one.name for one in records)) or "the receiver"
+
+
 def _links(here: Sequence[Line], there: Sequence[Line]) -> dict[int, int]:
     """Return the longest common subsequence; among those the one with the least time between."""
-    # best[i][j]: the pairs among here[i:] and there[j:], and minus the time between them.
-    best = [[(0, 0)] * (len(there) + 1) for _ in range(len(here) + 1)]
+    # best[i][j]: of here[i:] and there[j:] the number of pairs, minus the time between, the pairs.
+    nothing: tuple[int, int, tuple[tuple[int, int], ...]] = (0, 0, ())
+    best = [[nothing] * (len(there) + 1) for _ in range(len(here) + 1)]
     for i in reversed(range(len(here))):
         for j in reversed(range(len(there))):
             choices, apart = [best[i + 1][j], best[i][j + 1]], there[j].time_ns - here[i].time_ns
             if here[i].value == there[j].value and apart >= -_HASTE_NS:
-                total, time = best[i + 1][j + 1]
-                choices.append((total + 1, time - abs(apart)))
-            best[i][j] = max(choices)
-    links: dict[int, int] = {}
-    i = j = 0
-    while i < len(here) and j < len(there):
-        if best[i][j] == best[i + 1][j]:
-            i += 1
-        elif best[i][j] == best[i][j + 1]:
-            j += 1
-        else:
-            links[i] = j
-            i, j = i + 1, j + 1
-    return links
+                total, time, links = best[i + 1][j + 1]
+                choices.append((total + 1, time - abs(apart), ((i, j), *links)))
+            best[i][j] = max(choices, key=lambda choice: choice[:2])
+    return dict(best[0][0][2])
 
 
 # The picture.
@@ -204,21 +193,18 @@ def message_flow(
     Raises:
         PictureError: If these are no terminals or log lines, or no line of `sent` has a number.
     """
-    ours, theirs = _records(sent), _records(received)
-    shown = pairs(ours, theirs)
+    shown = pairs(_records(sent), _records(received))
     if not shown.sent:
         raise PictureError(
             "There is no message to draw.",
             "A line that tells of a message has a number in it, and none of those sent has one.",
             "Let the publisher log what it publishes, and wait for some lines.",
         )
-    others = _others(ours, shown), _others(theirs, shown)
     height = _HEAD + 2 * _RIM + _LANE + _FOOT
     note = not_shown(shown.skipped, "later message")
-    with blank(height, entries=_key(shown, others), note=note) as canvas:
-        _Drawing(canvas, shown, others, (_name_of(ours), _name_of(theirs))).draw()
-    words = describe(shown, _name_of(ours), _name_of(theirs))
-    return Picture(canvas.figure, words, "Messages from one process to another")
+    with blank(height, entries=_key(shown), note=note) as canvas:
+        _Drawing(canvas, shown).draw()
+    return Picture(canvas.figure, describe(shown), "Messages from one process to another")
 
 
 def _records(given: object) -> tuple[LogRecord, ...]:
@@ -235,64 +221,41 @@ def _records(given: object) -> tuple[LogRecord, ...]:
     )
 
 
-def _others(records: Sequence[LogRecord], shown: Pairs) -> tuple[int, ...]:
-    """Return when the lines without a number were logged, as far as the picture goes."""
-    last = max(line.time_ns for line in shown.sent + shown.received)
-    times = (one.time_ns for one in records if not first_number(one.text))
-    return tuple(at for at in times if not shown.skipped or at <= last)
-
-
-def _key(shown: Pairs, others: tuple[tuple[int, ...], ...]) -> list[Entry]:
+def _key(shown: Pairs) -> list[Entry]:
     """Return the marks in use, each with its meaning."""
-    hollow = theme.CARD
-    entries = (
-        (Entry("line of the sender", _SENT), shown.arrived),
-        (Entry("line of the receiver", _RECEIVED), shown.arrived),
-        (Entry("message", _MESSAGE), shown.arrived),
-        (Entry("sent before anybody was listening", _EARLY, hollow), shown.early),
-        (Entry("lost message", _LOST, hollow), shown.lost),
-        (Entry("sent after the receiver's last line", _LATE, hollow), shown.late),
-        (Entry("not among what was sent", _STRANGE, hollow), shown.strange),
-        (Entry("other log line", _OTHER), any(others)),
-    )
-    return [entry for entry, used in entries if used]
+    usual = {"line of the sender": _SENT, "line of the receiver": _RECEIVED, "message": _MESSAGE}
+    found = [Entry(*one) for one in usual.items() if shown.those("arrived")]
+    alone = [Entry(*look, theme.CARD) for fate, look in _ALONE.items() if shown.those(fate)]
+    return [*found, *alone, *([Entry("other log line", _OTHER)] if any(shown.others) else [])]
 
 
 class _Drawing:
     """Draw two lanes and what is between them."""
 
-    def __init__(
-        self,
-        canvas: Canvas,
-        shown: Pairs,
-        others: tuple[tuple[int, ...], tuple[int, ...]],
-        names: tuple[str, str],
-    ) -> None:
-        self._canvas, self._shown, self._others, self._names = canvas, shown, others, names
+    def __init__(self, canvas: Canvas, shown: Pairs) -> None:
+        self._canvas, self._shown = canvas, shown
         self._sender = canvas.top - _HEAD - _RIM
         self._receiver = self._sender - _LANE
         times = [line.time_ns for line in shown.sent + shown.received]
-        times += others[0] + others[1]
+        times += shown.others[0] + shown.others[1]
         self._start = min(times)
-        self._scale = lane_scale(names, (max(times) - self._start) / NANOSECONDS, 100.0)
+        self._scale = lane_scale(shown.names, (max(times) - self._start) / NANOSECONDS, 100.0)
 
     def draw(self) -> None:
         shown = self._shown
         ends = (self._receiver - _RIM, self._sender + _RIM)
         self._canvas.time_axis(self._scale, *ends)
-        lost = [f"{len(shown.lost)} lost"] if shown.lost else []
+        lost = [f"{len(shown.those('lost'))} lost"] if shown.those("lost") else []
         self._draw_lane(0, self._sender, [f"{len(shown.sent)} sent", *lost])
         self._draw_lane(1, self._receiver, [f"{len(shown.received)} received"])
         stroke = Stroke(_MESSAGE.colour, _MESSAGE.dash, 1.3)
-        for line in shown.arrived:
+        for line in shown.those("arrived"):
             way = [(self._x(line.time_ns), self._sender), (self._end(line), self._receiver + 6)]
             self._canvas.arrow(Path(way), stroke)
-        looks = dict.fromkeys(shown.late, _LATE) | dict.fromkeys(shown.early, _EARLY)
         for line in shown.sent:
-            look = _SENT if line.partner is not None else looks.get(line, _LOST)
-            self._mark(line, self._sender, look)
+            self._mark(line, self._sender, _SENT)
         for line in shown.received:
-            self._mark(line, self._receiver, _STRANGE if line.partner is None else _RECEIVED)
+            self._mark(line, self._receiver, _RECEIVED)
         self._write_values()
 
     def _x(self, time_ns: int) -> float:
@@ -304,22 +267,22 @@ class _Drawing:
         return self._x((line if line.partner is None else received[line.partner]).time_ns)
 
     def _draw_lane(self, side: int, y: float, sums: Sequence[str]) -> None:
-        self._canvas.lane(self._scale, y, self._names[side], has_text_below=True)
+        self._canvas.lane(self._scale, y, self._shown.names[side], has_text_below=True)
         for rank, words in enumerate(sums, 1):
             colour = theme.ALERT_TEXT if words.endswith("lost") else theme.MUTED
             at = y - rank * line_height() - 3
             self._canvas.text(self._scale.left - 18, at, words, colour, "right")
-        for at_ns in self._others[side]:
-            look: dict[str, Any] = {"ms": 9, "color": _OTHER.colour, "zorder": 3}
-            self._canvas.axes.plot([self._x(at_ns)], [y], _OTHER.marker, **look)
+        for at_ns in self._shown.others[side]:
+            self._canvas.mark(self._x(at_ns), y, _OTHER, 9, layer=3)
 
     def _mark(self, line: Line, y: float, look: theme.Style) -> None:
         """Draw a mark, hollow if the message has no partner."""
-        fill, edge, width, above = look.colour, theme.CARD, 0.8, 4
-        if line.partner is None:
-            fill, edge, width, above = theme.CARD, look.colour, 1.6, 5
-        more: dict[str, Any] = {"mfc": fill, "mec": edge, "mew": width, "zorder": above}
-        self._canvas.axes.plot([self._x(line.time_ns)], [y], look.marker, ms=7, **more)
+        x = self._x(line.time_ns)
+        if line.partner is not None:
+            self._canvas.mark(x, y, look, 7, theme.CARD, 0.8)
+        else:
+            look = _ALONE[line.fate][1]
+            self._canvas.mark(x, y, look, 7, width=1.6, layer=5, fill=theme.CARD)
 
     def _write_values(self) -> None:
         """Write the first few numbers beside both marks of their message, where there is room."""
@@ -339,26 +302,22 @@ class _Drawing:
 # The same in words.
 
 
-def _name_of(records: Iterable[LogRecord]) -> str:
-    """Return who logged these lines: one name, or several if a process has several nodes."""
-    return listing(dict.fromkeys(one.name for one in records)) or "the receiver"
-
-
-def describe(shown: Pairs, sender: str, receiver: str) -> str:
+def describe(shown: Pairs) -> str:
     """Tell what became of the messages, without times."""
-    arrived, lost, late = len(shown.arrived), len(shown.lost), len(shown.late)
+    sender, receiver = shown.names
+    fates = ("arrived", "lost", "late", "early", "strange")
+    arrived, lost, late, early, strange = (len(shown.those(fate)) for fate in fates)
     every = "all" if arrived == len(shown.sent) > 1 else str(arrived or "none")
     sums = [f"{every} arrived at {receiver}"]
     sums += [f"{lost or 'none'} {_was(lost or 1)} lost"] if arrived else []
     sums += [f"{late} {_was(late)} sent after its last line"] if late else []
     said = [f"{sender} sent {count(len(shown.sent), 'message')}: {listing(sums)}."]
-    if shown.early:
-        early = len(shown.early)
+    if early:
         which = "The first one" if early == 1 else f"The first {early}"
         said.append(f"{which} {_was(early)} sent before anybody was listening.")
-    if shown.strange:
-        verb = "has" if len(shown.strange) == 1 else "have"
-        lines = count(len(shown.strange), "line")
+    if strange:
+        verb = "has" if strange == 1 else "have"
+        lines = count(strange, "line")
         said.append(f"{lines} of {receiver} {verb} a number that {sender} did not log.")
     return " ".join([*said, not_shown(shown.skipped, "later message")]).strip()
 

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import inf, isfinite, nan
 
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
@@ -81,31 +81,33 @@ class Band:
 
     Attributes:
         name: What it is called.
-        low: Lower limit, or None.
-        high: Upper limit, or None.
+        low: Lower limit, or minus infinity.
+        high: Upper limit, or infinity.
     """
 
     name: str
-    low: float | None
-    high: float | None
+    low: float
+    high: float
+
+    @property
+    def limits(self) -> list[float]:
+        """Return the limits that it has."""
+        return [limit for limit in (self.low, self.high) if isfinite(limit)]
 
     def holds(self, value: float) -> bool:
         """Return whether a finite value is in the band: one with two limits includes both."""
-        closed = self.low is not None and self.high is not None
-        above = self.low is None or value > self.low or (closed and value == self.low)
-        below = self.high is None or value < self.high or (closed and value == self.high)
-        return above and below
+        if len(self.limits) == 2:
+            return self.low <= value <= self.high
+        return self.low < value < self.high
 
     def words(self, unit: str = "") -> str:
         """Return the range in words: `below 20 °C`, `20 to 26 °C`, `above 26 °C`."""
-        tail = f" {unit}" if unit else ""
-        if self.low is None and self.high is None:
+        if not self.limits:
             return "any value"
-        if self.low is None:
-            return f"below {number(self.high or 0.0)}{tail}"
-        if self.high is None:
-            return f"above {number(self.low)}{tail}"
-        return f"{number(self.low)} to {number(self.high)}{tail}"
+        limits = " to ".join(map(number, self.limits)) + (f" {unit}" if unit else "")
+        if len(self.limits) == 2:
+            return limits
+        return f"above {limits}" if isfinite(self.low) else f"below {limits}"
 
 
 def read_bands(limits: Limits | None) -> tuple[Band, ...]:
@@ -122,14 +124,15 @@ def read_bands(limits: Limits | None) -> tuple[Band, ...]:
             _BANDS,
         )
     found = [_band(name, pair) for name, pair in (limits or {}).items()]
-    return tuple(sorted(found, key=lambda band: float("-inf") if band.low is None else band.low))
+    return tuple(sorted(found, key=lambda band: band.low))
 
 
 def _band(name: str, pair: object) -> Band:
     match pair:
         case (None | int() | float() as low, None | int() | float() as high):
-            if low is None or high is None or low < high:
-                return Band(name, low, high)
+            band = Band(name, -inf if low is None else low, inf if high is None else high)
+            if band.low < band.high:
+                return band
     raise PictureError(
         f"The band {name!r} has the limits {pair!r}.",
         "A band is a pair: a lower limit and a higher one, None where it is open.",
@@ -159,9 +162,6 @@ def values(
         unit: Unit of the values, such as `°C`.
         field: Field to draw if messages have several, nested ones with dots.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If the topic is unknown, nothing was published on it, the field is missing or
             not a number, or a band is not a pair of ascending limits.
@@ -174,7 +174,7 @@ def values(
             "Look at the node that publishes it.",
         )
     name = label or ", ".join(dict.fromkeys(line.topic for line in lines))
-    limits = [limit for band in ranges for limit in (band.low, band.high) if limit is not None]
+    limits = [limit for band in ranges for limit in band.limits]
     extent = _extent([*limits, *(value for line in lines for value in line.finite)], _BAND_AIR)
     with _plot(name, unit, _line_key(lines), extent, _room_for_names(ranges, unit)) as (
         canvas,
@@ -228,18 +228,14 @@ def _line_key(lines: Sequence[Series]) -> list[Entry]:
 
 def _draw_band(axes: Axes, band: Band, tint: str) -> None:
     axes.axhspan(*_visible(axes, band), color=tint, lw=0, zorder=0)
-    for limit in (band.low, band.high):
-        if limit is not None:
-            axes.axhline(limit, color=theme.MUTED, lw=1, ls=(0, (4, 3)), zorder=1)
+    for limit in band.limits:
+        axes.axhline(limit, color=theme.MUTED, lw=1, ls=(0, (4, 3)), zorder=1)
 
 
 def _visible(axes: Axes, band: Band) -> tuple[float, float]:
     """Return the part of a band that is inside the axes."""
     bottom, top = axes.get_ylim()
-    return (
-        bottom if band.low is None else max(bottom, band.low),
-        top if band.high is None else min(top, band.high),
-    )
+    return max(bottom, band.low), min(top, band.high)
 
 
 def _room_for_names(ranges: Sequence[Band], unit: str) -> float:
@@ -279,10 +275,8 @@ def _say_line(line: Series, bands: Sequence[Band], unit: str) -> str:
     said = [f"{count(total, 'value')} on {line.topic} from {line.node}, {span}."]
     if finite:
         said.append(_say_range(finite, f" {unit}" if unit else ""))
-    lost = total - len(finite)
-    if lost:
-        verb = "is" if lost == 1 else "are"
-        said.append(f"{count(lost, 'value')} {verb} infinite or not a number and left out.")
+    if lost := total - len(finite):
+        said.append(f"{count(lost, 'value')} {_no_numbers(lost)} and left out.")
     if bands:
         # A value in two bands counts for the first.
         homes = [next((band for band in bands if band.holds(value)), None) for value in finite]
@@ -316,9 +310,6 @@ def comparison(
         field: Field to draw if messages have several, nested ones with dots.
         label: What the values are; the topic's name by default.
         unit: Unit of the values, such as `°C`.
-
-    Returns:
-        The picture.
 
     Raises:
         PictureError: If it is no comparison, there is no value to draw, or the field is missing or
@@ -376,10 +367,11 @@ def _draw_marks(
 
 def _say_odd(odd: Series) -> str:
     total = len(odd.times)
-    if not total:
-        return ""
-    verb = "is" if total == 1 else "are"
-    return f" {count(total, 'value')} of the second {verb} infinite or not a number."
+    return f" {count(total, 'value')} of the second {_no_numbers(total)}." if total else ""
+
+
+def _no_numbers(total: int) -> str:
+    return f"{'is' if total == 1 else 'are'} infinite or not a number"
 
 
 # Axes over virtual time.

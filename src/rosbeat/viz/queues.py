@@ -27,7 +27,7 @@ _CELL, _WIDEST, _ROOMY = 22.0, 34.0, 17.0
 _HEAD, _FOOT = 12.0, 56.0
 _WAITS = theme.Style(theme.BLUE, "s", "")
 _TAKEN = theme.Style(theme.TAKEN, "v", "")
-_DROPPED = theme.Style(theme.DROPPED, "X", "")
+_DROPPED = theme.Style(theme.ALERT, "X", "")
 _LIMIT = theme.Style(theme.INK, "", "--")
 
 
@@ -94,25 +94,17 @@ def queue(
         depth: Queue length in messages, of steps only; a session knows the length.
         node: The node that subscribes, if several do.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If `source` is no session, the topic has no subscription or several, no
             message arrived there, or some expired in the queue.
     """
     if isinstance(source, Sequence):
-        return _queue_of_steps(source, topic if depth is None else depth)
+        words = "`viz.queue(steps, depth)` is deprecated: `viz.queue(ros, topic)` takes a session."
+        warnings.warn(words, DeprecationWarning, stacklevel=3)
+        return of_steps(source, topic if depth is None else depth)
     seen = observed(source, "a session")
     end = _subscription(seen, topic, node)
     return of_steps(_steps(seen, end), end.qos.depth)
-
-
-def _queue_of_steps(steps: Sequence[QueueStep], depth: object) -> Picture:
-    """Draw from steps, as `viz.queue(steps, depth=5)` did before it drew from a session."""
-    words = "`viz.queue(steps, depth)` is deprecated: `viz.queue(ros, topic)` takes a session."
-    warnings.warn(words, DeprecationWarning, stacklevel=4)
-    return of_steps(steps, depth)
 
 
 def _subscription(seen: Observation, topic: object, node: str | None) -> Endpoint:
@@ -157,9 +149,6 @@ def of_steps(steps: Sequence[QueueStep], depth: object) -> Picture:
         steps: From `rosbeat.records.queue_steps`.
         depth: Queue length in messages, at least 1.
 
-    Returns:
-        The picture.
-
     Raises:
         PictureError: If these are no steps, or there are none, or the depth is below 1 or below
             what waited.
@@ -173,8 +162,9 @@ def of_steps(steps: Sequence[QueueStep], depth: object) -> Picture:
     with blank(height, entries=_key(shown, length), note=note) as canvas:
         grid = _Grid(canvas.bottom + _FOOT, min(_WIDEST, ROOM / len(shown)), cell)
         _draw(canvas, shown, length, grid)
-    words = f"{describe(every, length)} {note}".strip()
-    return Picture(canvas.figure, words, "A queue filling and dropping")
+    return Picture(
+        canvas.figure, f"{describe(every, length)} {note}".strip(), "A queue filling and dropping"
+    )
 
 
 def _checked(steps: Sequence[QueueStep], depth: object) -> int:
@@ -256,9 +246,8 @@ def _draw_column(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
 
 
 def _draw_exit(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
-    look, colour = (_TAKEN, theme.TAKEN_TEXT) if one.taken else (_DROPPED, theme.DROPPED_TEXT)
-    size = min(8.0, grid.step * 0.6)
-    canvas.axes.plot([x], [grid.bottom - 12], look.marker, ms=size, color=look.colour, mew=0)
+    look, colour = (_TAKEN, theme.TAKEN_TEXT) if one.taken else (_DROPPED, theme.ALERT_TEXT)
+    canvas.mark(x, grid.bottom - 12, look, min(8.0, grid.step * 0.6), width=0, layer=2)
     if grid.step >= _ROOMY:
         number = str(one.taken or one.dropped)
         canvas.text(x, grid.bottom - 28, number, colour, "center", "bold")

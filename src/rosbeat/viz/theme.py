@@ -53,9 +53,6 @@ TOPIC_EDGE = "#9A6700"
 #: Text that says what is wrong, and the line that shows it.
 ALERT = VERMILLION
 ALERT_TEXT = "#A84300"
-#: A message that a queue dropped.
-DROPPED = VERMILLION
-DROPPED_TEXT = "#A84300"
 #: A message that a callback took.
 TAKEN = GREEN
 TAKEN_TEXT = "#00694D"

@@ -12,7 +12,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
-from typing import Any
 
 from matplotlib.path import Path
 
@@ -73,36 +72,34 @@ _LOST = theme.Style(theme.ALERT, "", "--")
 
 @dataclass(frozen=True)
 class Run(Timed):
-    """Hold one run of a callback in which virtual time passed.
+    """Hold one run of a callback.
 
     Attributes:
         time_ns: When it began, in nanoseconds of virtual time.
-        until_ns: When it ended.
         node: Full name of the node.
         callback: Name of the callback function.
-        waits: Its waits, each beginning where the one before ended.
+        kind: As in `CallbackRecord`; empty if it has no mark, such as a constructor that waits.
+        source: As in `CallbackRecord`.
+        waits: Its waits, each beginning where the one before ended; none if it took no time.
         level: Its place in the stack of runs of this node that overlap, from 0.
     """
 
     time_ns: int
-    until_ns: int
     node: str
     callback: str
-    waits: tuple[WaitRecord, ...]
+    kind: str = ""
+    source: str = ""
+    waits: tuple[WaitRecord, ...] = ()
     level: int = 0
+
+    @property
+    def until_ns(self) -> int:
+        """Return when it ended."""
+        return self.waits[-1].until_ns if self.waits else self.time_ns
 
     def holds(self, time_ns: int) -> bool:
         """Return whether it was under way at a time, its begin and its end not counted."""
         return self.time_ns < time_ns < self.until_ns
-
-
-@dataclass(frozen=True)
-class Call:
-    """Hold a callback with its level in its node's stack, and whether it took no time."""
-
-    record: CallbackRecord
-    level: int
-    is_instant: bool
 
 
 @dataclass(frozen=True)
@@ -132,25 +129,33 @@ class Happenings:
         lanes: Full names of the nodes, in order of creation; those that share a process together.
         topics: Full names of the topics, in order of first use.
         messages: The messages, in order.
-        calls: The callbacks, in order.
+        runs: The runs of callbacks, in order.
         logs: The log lines of the nodes in lanes.
         faults: The exceptions that ended nodes in lanes.
         end: The last time shown, in seconds.
         skipped: How many messages and callbacks came later and are not shown.
         processes: The nodes in lanes that share a process.
-        runs: The runs of callbacks that take time.
     """
 
     lanes: tuple[str, ...]
     topics: tuple[str, ...]
     messages: tuple[Message, ...]
-    calls: tuple[Call, ...]
+    runs: tuple[Run, ...]
     logs: tuple[LogRecord, ...]
     faults: tuple[Fault, ...]
     end: float
     skipped: int
-    processes: tuple[tuple[str, ...], ...] = ()
-    runs: tuple[Run, ...] = ()
+    processes: tuple[tuple[str, ...], ...]
+
+    @property
+    def marked(self) -> list[Run]:
+        """Return the runs that have a mark."""
+        return [run for run in self.runs if run.kind]
+
+    @property
+    def long(self) -> list[Run]:
+        """Return the runs that take time, and have a bar."""
+        return [run for run in self.runs if run.waits]
 
     def level_at(self, node: str, time_ns: int, callback: str = "", topic: str = "") -> int:
         """Return the level of what a node does at an instant; the first, if it does several things.
@@ -161,18 +166,15 @@ class Happenings:
             callback: Name of the callback function that does it, if it is known.
             topic: The topic whose message it takes, if it takes one.
         """
-        found = [
-            one.level
-            for one in self.calls
-            if (one.record.node, one.record.time_ns) == (node, time_ns)
-            and callback in ("", one.record.name)
-            and (not topic or (one.record.kind, one.record.source) == ("subscription", topic))
-        ]
-        for run in self.runs if not topic else ():
-            resumes = any(wait.until_ns == time_ns for wait in run.waits)
-            if resumes and run.node == node and callback in ("", run.callback):
-                found.append(run.level)
-        return min(found, default=0)
+        found = [0]
+        for run in self.runs:
+            if run.node == node and callback in ("", run.callback):
+                takes = (run.kind, run.source) == ("subscription", topic)
+                resumes = any(wait.until_ns == time_ns for wait in run.waits)
+                begins = run.time_ns == time_ns
+                if (begins and takes) if topic else (begins or resumes):
+                    found.append(run.level)
+        return min(found[1:], default=0)
 
 
 def happenings(
@@ -194,30 +196,28 @@ def happenings(
     processes = shared(seen.graph.processes, lanes)
     home = {name: names for names in processes for name in names}
     lanes = tuple(dict.fromkeys(one for name in lanes for one in home.get(name, (name,))))
-    callbacks = [
-        one
+    # A callback that takes another topic's message has no mark; if it waits, it has a bar.
+    callbacks = (
+        replace(one, kind="") if one.kind == "subscription" and one.source not in topics else one
         for one in seen.callbacks
-        if one.node in lanes and (one.kind != "subscription" or one.source in topics)
-    ]
-    runs = runs_of((one for one in seen.waits if one.node in lanes), seen.callbacks)
-    # A wait in a constructor is a run that no callback tells of.
-    told = {(one.node, one.name, one.time_ns) for one in callbacks}
-    more = [run for run in runs if (run.node, run.callback, run.time_ns) not in told]
-    times = sorted(one.time_ns for one in (*samples, *callbacks, *more))
+        if one.node in lanes
+    )
+    every = runs_of((one for one in seen.waits if one.node in lanes), callbacks)
+    runs = [run for run in every if run.kind or run.waits]
+    times = sorted(one.time_ns for one in (*samples, *runs))
     last = _last(times, until_ns)
     end = _end(seen, times, last, until_ns)
     shown = [one for one in samples if one.time_ns <= last]
     return Happenings(
         lanes,
         tuple(dict.fromkeys(one.topic for one in shown)),
-        _messages(shown, callbacks),
-        calls_of([one for one in callbacks if one.time_ns <= last], runs),
+        _messages(shown, runs),
+        tuple(stacked([run for run in runs if run.time_ns <= last])),
         tuple(one for one in seen.logs if _node_of(one) in lanes and one.time_ns <= end),
         tuple(one for one in seen.faults if one.node in lanes and one.time_ns <= end),
         end / NANOSECONDS,
         sum(time > last for time in times),
         processes,
-        tuple(run for run in runs if run.time_ns <= last),
     )
 
 
@@ -258,9 +258,9 @@ def _end(seen: Observation, times: list[int], last: int, until_ns: int | None) -
     return max(asked, last) if not any(last < time <= asked for time in times) else last
 
 
-def _messages(samples: list[Sample], callbacks: list[CallbackRecord]) -> tuple[Message, ...]:
+def _messages(samples: list[Sample], runs: list[Run]) -> tuple[Message, ...]:
     readers: dict[tuple[int, str], dict[str, None]] = {}
-    for one in callbacks:
+    for one in runs:
         if one.kind == "subscription":
             readers.setdefault((one.time_ns, one.source), {})[one.node] = None
     alike = Counter((one.time_ns, one.topic, one.node) for one in samples)
@@ -270,54 +270,50 @@ def _messages(samples: list[Sample], callbacks: list[CallbackRecord]) -> tuple[M
     )
 
 
-def runs_of(waits: Iterable[WaitRecord], callbacks: Iterable[CallbackRecord]) -> tuple[Run, ...]:
-    """Join waits to runs, in order of begin, and stack those of one node that overlap.
+def runs_of(waits: Iterable[WaitRecord], callbacks: Iterable[CallbackRecord]) -> list[Run]:
+    """Join callbacks and their waits to runs, in order of begin.
 
-    A wait that begins when another of the same callback ends belongs to the same run, except where
-    a run of that callback began just then. Waits that took no time are left out.
+    A wait belongs to a run of the same callback that begins at the same time, or else to one whose
+    last wait ends then, or else to a run that no callback tells of. Waits that took no time are
+    left out.
 
     Args:
         waits: Waits of any nodes.
         callbacks: The runs of callbacks of these nodes.
     """
-    begun = Counter((one.node, one.name, one.time_ns) for one in callbacks)
-    starts: dict[tuple[str, str, int], list[WaitRecord]] = {}
+    found = [Run(one.time_ns, one.node, one.name, one.kind, one.source) for one in callbacks]
+    open_ends: dict[tuple[str, str, int], list[int]] = {}
+    for rank, run in enumerate(found):
+        open_ends.setdefault((run.node, run.callback, run.time_ns), []).append(rank)
     for wait in sorted(waits, key=lambda one: one.time_ns):
-        if wait.until_ns > wait.time_ns:
-            starts.setdefault((wait.node, wait.callback, wait.time_ns), []).append(wait)
-    found: list[Run] = []
-    for key, group in starts.items():
-        ended = [k for k, one in enumerate(found) if (one.node, one.callback, one.until_ns) == key]
-        joined = ended[: max(0, len(group) - begun[key])]
-        for wait, k in zip(group, joined, strict=False):
-            more = (*found[k].waits, wait)
-            found[k] = replace(found[k], until_ns=wait.until_ns, waits=more)
-        for wait in group[len(joined) :]:
-            found.append(Run(wait.time_ns, wait.until_ns, wait.node, wait.callback, (wait,)))
-    placed: list[Run] = []
-    for run in sorted(found, key=lambda one: one.time_ns):
-        same = [one for one in placed if one.node == run.node and one.until_ns > run.time_ns]
-        placed.append(replace(run, level=_first_free({one.level for one in same})))
-    return tuple(placed)
+        if wait.until_ns == wait.time_ns:
+            continue
+        ranks = open_ends.get((wait.node, wait.callback, wait.time_ns))
+        if not ranks:
+            ranks = [len(found)]
+            found.append(Run(wait.time_ns, wait.node, wait.callback))
+        rank = ranks.pop(0)
+        found[rank] = replace(found[rank], waits=(*found[rank].waits, wait))
+        open_ends.setdefault((wait.node, wait.callback, wait.until_ns), []).append(rank)
+    return sorted(found, key=lambda one: one.time_ns)
 
 
-def calls_of(callbacks: Sequence[CallbackRecord], runs: Sequence[Run]) -> tuple[Call, ...]:
-    """Find the level of every callback: that of its own run, or the first that is free.
+def stacked(runs: Sequence[Run]) -> list[Run]:
+    """Give each run its level; one that takes no time is on the first that is free.
 
     Args:
-        callbacks: Any runs of callbacks.
-        runs: Those that take time.
+        runs: The runs, in order of begin.
     """
-    left = list(runs)
+    long: list[Run] = []
+    for run in (one for one in runs if one.waits):
+        taken = {one.level for one in long if one.node == run.node and one.until_ns > run.time_ns}
+        long.append(replace(run, level=_first_free(taken)))
+    placed = iter(long)
     found = []
-    for one in callbacks:
-        key = (one.node, one.name, one.time_ns)
-        own = next((run for run in left if (run.node, run.callback, run.time_ns) == key), None)
-        if own is not None:
-            left.remove(own)
-        taken = {run.level for run in runs if run.node == one.node and run.holds(one.time_ns)}
-        found.append(Call(one, _first_free(taken) if own is None else own.level, own is None))
-    return tuple(found)
+    for run in runs:
+        taken = {one.level for one in long if one.node == run.node and one.holds(run.time_ns)}
+        found.append(next(placed) if run.waits else replace(run, level=_first_free(taken)))
+    return found
 
 
 def _first_free(taken: set[int]) -> int:
@@ -347,9 +343,6 @@ def timeline(
         topics: Topics to show, one name or several, with the nodes that use them. By default all
             topics but the infrastructure, and all nodes.
         until: Last time to show, in seconds of virtual time.
-
-    Returns:
-        The picture.
 
     Raises:
         PictureError: If a topic is unknown, the time is not a number from 0 up, or nothing
@@ -395,8 +388,6 @@ class _Stack:
 
 def _stack(shown: Happenings) -> _Stack:
     deepest: Counter[str] = Counter()
-    for call in shown.calls:
-        deepest[call.record.node] = max(call.level, deepest[call.record.node])
     for run in shown.runs:
         deepest[run.node] = max(run.level, deepest[run.node])
     starts = {names[0] for names in shown.processes}
@@ -433,7 +424,7 @@ class _Drawing:
             canvas.frame(_SIDE, *ends)
         for name in shown.lanes:
             canvas.lane(self._scale, self._y(name), name)
-        for run in shown.runs:
+        for run in shown.long:
             self._draw_run(run)
         for message in shown.messages:
             self._draw_message(message)
@@ -478,13 +469,10 @@ class _Drawing:
                 self._canvas.arrow(path, Stroke(look.colour, look.dash, 1.6))
 
     def _draw_calls(self) -> None:
-        alike = Counter(
-            (one.record.node, one.record.time, one.level, one.record.kind)
-            for one in self._shown.calls
-        )
+        alike = Counter((one.node, one.time, one.level, one.kind) for one in self._shown.marked)
         # The larger ones stay visible around what they caused, or came with, at the same instant;
         # after a wait they may come after it, too.
-        order = sorted(alike, key=lambda one: -_size(one[-1])) if self._shown.runs else alike
+        order = sorted(alike, key=lambda one: -_size(one[-1])) if self._shown.long else alike
         for node, time, level, kind in order:
             look = _CALLBACKS.get(kind, _OTHER)[1]
             self._mark(self._scale(time), self._y(node, level), look, _size(kind))
@@ -499,8 +487,7 @@ class _Drawing:
     def _mark(self, x: float, y: float, look: theme.Style, size: float) -> None:
         # A rim in the card's colour keeps overlapping marks apart; a bare line has none.
         rim = look.colour if look.marker in ("|", "x") else theme.CARD
-        more: dict[str, Any] = {"color": look.colour, "mec": rim, "mew": 1.2, "zorder": 4}
-        self._canvas.axes.plot([x], [y], look.marker, ms=size, **more)
+        self._canvas.mark(x, y, look, size, rim, 1.2)
 
 
 def _bar(wait: WaitRecord) -> theme.Bar:
@@ -522,7 +509,7 @@ def _is_plain(log: LogRecord) -> bool:
 
 def _key(shown: Happenings) -> list[Entry]:
     """Return the marks in use, each with its meaning."""
-    kinds = dict.fromkeys(_CALLBACKS.get(one.record.kind, _OTHER) for one in shown.calls)
+    kinds = dict.fromkeys(_CALLBACKS.get(run.kind, _OTHER) for run in shown.marked)
     entries = [Entry(words, look) for words, look in kinds]
     bars = {_bar(wait) for run in shown.runs for wait in run.waits}
     for words, bar in (("callback sleeps", theme.SLEEP), ("callback waits", theme.WAIT)):
@@ -563,7 +550,7 @@ def _left_out(shown: Happenings) -> str:
 
 
 def _say_lane(shown: Happenings, node: str) -> str:
-    kinds = Counter(one.record.kind for one in shown.calls if one.record.node == node)
+    kinds = Counter(run.kind for run in shown.marked if run.node == node)
     done = [
         # A message that was too old is a callback that did not run.
         count(total, "message too old", "messages too old")
@@ -573,7 +560,7 @@ def _say_lane(shown: Happenings, node: str) -> str:
     ]
     logs = sum(_node_of(one) == node for one in shown.logs)
     done += [count(logs, "log line")] if logs else []
-    if not done and any(run.node == node for run in shown.runs):
+    if not done and any(run.node == node for run in shown.long):
         return f"{node} does nothing but wait."
     return f"{node}: {listing(done) or 'nothing happens'}."
 
@@ -600,12 +587,12 @@ def _say_arrival(targets: tuple[str, ...], total: int) -> str:
 def _say_runs(shown: Happenings) -> list[str]:
     """Tell which callbacks take time, how long, and what ran meanwhile."""
     kinds: dict[tuple[str, str], list[Run]] = {}
-    for run in shown.runs:
+    for run in shown.long:
         kinds.setdefault((run.node, run.callback), []).append(run)
     end_ns = round(shown.end * NANOSECONDS)
     said = [line for same in kinds.values() for line in _say_durations(same, end_ns)]
     framed = {name for names in shown.processes for name in names}
-    alone = ((name,) for name in dict.fromkeys(run.node for run in shown.runs))
+    alone = ((name,) for name in dict.fromkeys(run.node for run in shown.long))
     for names in (*shown.processes, *(one for one in alone if one[0] not in framed)):
         said += _say_meanwhile(shown, names)
     return said
@@ -650,11 +637,11 @@ def _some(spans: Sequence[tuple[int, int]]) -> str:
 
 def _say_meanwhile(shown: Happenings, names: tuple[str, ...]) -> list[str]:
     """Tell what ran in one process while callbacks in it took their time."""
-    ours = [run for run in shown.runs if run.node in names]
+    ours = [run for run in shown.long if run.node in names]
     if not ours:
         return []
     said = _say_overlaps(ours)
-    others = [one.record for one in shown.calls if one.is_instant and one.record.node in names]
+    others = [run for run in shown.marked if not run.waits and run.node in names]
     inside = sum(any(run.holds(one.time_ns) for run in ours) for one in others)
     where = f"in the process of {listing(names)}"
     if inside:

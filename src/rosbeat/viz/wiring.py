@@ -122,12 +122,7 @@ def short_type(type_name: str) -> str:
 
 
 def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:
-    """Return the part of a graph that a picture shows.
-
-    Args:
-        graph: The graph.
-        infrastructure: Whether to show the topics that every node brings along, too.
-    """
+    """Return the part of a graph that a picture shows, with what every node brings if wanted."""
     names = tuple(dict.fromkeys([*graph.nodes, *(end.node for end in graph.endpoints)]))
     nodes = tuple(name for name in names if not is_hidden(name))
     ends = [end for end in graph.endpoints if end.kind in _OTHER]
@@ -190,12 +185,7 @@ def _is_brought(end: Endpoint, nodes: Iterable[str]) -> bool:
 def shared(
     processes: Iterable[Iterable[str]], nodes: Collection[str]
 ) -> tuple[tuple[str, ...], ...]:
-    """Return the nodes that share a process, as far as they are shown.
-
-    Args:
-        processes: Full names of the nodes of each process.
-        nodes: Full names of the nodes that are shown.
-    """
+    """Return the nodes of each process, as far as several of them are among `nodes`."""
     taken: set[str] = set()
     found: list[tuple[str, ...]] = []
     for process in processes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+from itertools import groupby
 
 from rosbeat.records import NANOSECONDS
 
@@ -50,12 +51,9 @@ def ranges(numbers: Sequence[int], most: int = 8) -> str:
 
     After `most` runs comes only how many numbers follow, since nobody listens to longer lists.
     """
-    runs: list[list[int]] = []
-    for item in numbers:
-        if runs and item == runs[-1][-1] + 1:
-            runs[-1].append(item)
-        else:
-            runs.append([item])
+    # In a run, the difference between a number and its rank is the same.
+    groups = groupby(enumerate(numbers), key=lambda one: one[1] - one[0])
+    runs = [[number for _, number in group] for _, group in groups]
     parts: list[str] = []
     for run in runs[:most]:
         parts += [f"{run[0]} to {run[-1]}"] if len(run) > 2 else map(str, run)

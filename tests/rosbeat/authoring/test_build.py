@@ -88,8 +88,8 @@ def test_only_our_own_pages_are_stale(tmp_path):
 
 
 def test_a_broken_rule_stops_the_build_before_anything_is_written(checkout, build):
-    checkout.write("# %%\nrclpy.spin(node)")
-    with pytest.raises(LessonError, match="endless") as caught:
+    checkout.write("# %%\nreturn ____")
+    with pytest.raises(LessonError, match="stray-blank") as caught:
         build()
     assert "nothing was built" in caught.value.means
     assert contents(checkout) == {}

@@ -77,10 +77,8 @@ def test_only_the_names_of_what_is_highlighted_are_bold(names):
 
 # fmt: off
 TIDY = {
-    "one node": graph_of(alone=["/talker"]),
     "twelve nodes": twelve(),
     "twelve alone": graph_of(alone=[f"/node_{k}" for k in range(12)]),
-    "three stages": stages(3, "/stage_number"),
     "six stages": stages(6, "/stage_number"),
     "a cycle": CYCLE,
     "itself": graph_of(pub("/echo", "/voice"), sub("/echo", "/voice")),
@@ -226,10 +224,7 @@ def holds(frame, box):
 
 # fmt: off
 FRAMES = {
-    "two of three, in one column": (READERS, ["monitor logger"], ["monitor logger"]),
     "two of three, a topic that others use, too": (READERS, ["sensor logger"], ["sensor logger"]),
-    "two of three, a topic of their own":
-        (stages(3), ["stage_0 stage_1"], ["stage_0 result_0 stage_1"]),
     "all": (READERS, ["sensor monitor logger"], ["sensor monitor logger temperature"]),
     "two processes of two nodes":
         (stages(4), ["stage_0 stage_1", "stage_2 stage_3"],

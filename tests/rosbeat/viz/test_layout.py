@@ -106,6 +106,9 @@ def test_boxes_never_overlap_and_arrows_go_around_them_inside_the_picture(links)
         assert -0.01 <= along <= result.length + 0.01
         assert -0.01 <= across <= result.breadth + 0.01
     for ends, way in result.routes.items():
+        source, target = (result.boxes[one] for one in ends)
+        assert way[0] == (source.along + source.length / 2, source.across)
+        assert way[-1] == (target.along - target.length / 2, target.across)
         for along, across in way[1:-1]:
             for name, box in result.boxes.items():
                 near = abs(along - box.along) < box.length / 2

@@ -188,7 +188,7 @@ def test_what_was_sent_before_or_after_the_receiver_listened_is_not_called_lost(
     sent, got, lost, late, early, strange
 ):
     found = pairs(lines(*sent), lines(*got))
-    groups = (found.lost, found.late, found.early, found.strange)
+    groups = [found.those(fate) for fate in ("lost", "late", "early", "strange")]
     assert [" ".join(line.words for line in one) for one in groups] == [lost, late, early, strange]
 
 

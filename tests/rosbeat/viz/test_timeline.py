@@ -12,7 +12,7 @@ from pictures import heads, is_tidy, lines, words_in
 from rosbeat.errors import PictureError
 from rosbeat.records import Fault, LogRecord, Observation
 from rosbeat.viz import theme, timeline
-from rosbeat.viz.timelines import MOST_EVENTS, calls_of, runs_of
+from rosbeat.viz.timelines import MOST_EVENTS, runs_of, stacked
 
 
 def axes_of(picture):
@@ -328,7 +328,7 @@ def test_many_waits_are_cut_and_said():
 )
 def test_waits_of_one_run_are_joined(spans, begins, lengths, levels):
     calls = [call(time, "/a", "f") for time in begins]
-    runs = runs_of([wait(*span, "/a", "f") for span in spans], calls)
+    runs = stacked(runs_of([wait(*span, "/a", "f") for span in spans], calls))
     assert sorted(len(run.waits) for run in runs) == lengths
     assert {run.level for run in runs} == levels
     assert (min(run.time for run in runs), max(run.until_ns for run in runs)) == (
@@ -350,10 +350,9 @@ spans = st.lists(
 def test_runs_in_one_row_never_overlap(given_spans):
     calls = [call(begin, node, name) for begin, _, node, name in sorted(given_spans)]
     waits = [wait(begin, begin + long, node, name) for begin, long, node, name in given_spans]
-    runs = runs_of(waits, calls)
+    runs = stacked(runs_of(waits, calls))
     assert len(runs) == len(waits)
     for k, one in enumerate(runs):
         for other in runs[k + 1 :]:
             together = one.time_ns < other.until_ns and other.time_ns < one.until_ns
             assert not (together and (one.node, one.level) == (other.node, other.level))
-    assert sorted(one.level for one in calls_of(calls, runs)) == sorted(r.level for r in runs)
