@@ -19,39 +19,6 @@ from rosbeat.exercises.predict import (
 BECAUSE = "The first one comes after a full period."
 
 
-def test_without_a_prediction_it_says_what_happened_and_not_why():
-    prediction = predict("____", 63, because=BECAUSE)
-    assert str(prediction) == "○ No prediction yet. It was 63."
-    assert not prediction.was_right
-
-
-def test_a_right_one():
-    prediction = predict("63", 63)
-    assert str(prediction) == "✓ You predicted 63, and it was 63."
-    assert prediction.was_right
-
-
-def test_another_one_is_not_blamed():
-    assert str(predict(60, 63)) == "✗ You predicted 60, and it was 63. Look at why."
-
-
-def test_a_near_one_is_said_to_be_near():
-    near = predict(60, 63, tolerance=5)
-    assert str(near) == "✓ You predicted 60, and it was 63. That is close enough."
-
-
-@pytest.mark.parametrize("guess", [60, 63])
-def test_the_reason_is_given_whether_it_was_right_or_not(guess):
-    prediction = predict(guess, 63, because=BECAUSE)
-    assert str(prediction).endswith(f"\n  {BECAUSE}")
-    assert BECAUSE in prediction.html()
-
-
-def test_two_that_look_alike_show_all_their_digits():
-    assert "predicted 22.3, and it was 22.30003." in str(predict(22.3, 22.30003))
-    assert "predicted 1.0000001, and it was 1.0000023." in str(predict(1.0000001, 1.0000023))
-
-
 def test_odd_guesses_never_end_the_page():
     for guess in (object(), [], {}, len, predict, b"x"):
         assert str(predict(guess, 63, tolerance="wide", because=3)).startswith("○ ")
@@ -209,13 +176,6 @@ def test_they_do_not_agree(guess, happened):
     assert not agree(guess, happened)
 
 
-@pytest.mark.parametrize("tolerance", [3, 3.0, "3", 100, np.float64(4)])
-def test_a_number_may_be_a_little_away(tolerance):
-    assert agree(60, 63, tolerance)
-    assert agree([60], [63], tolerance)
-    assert not agree("High", "Normal", tolerance)
-
-
 @pytest.mark.parametrize("tolerance", [0, 2.9, -3, nan, "wide", None, object(), True])
 def test_not_every_tolerance_lets_it_pass(tolerance):
     assert not agree(60, 63, tolerance)
@@ -257,11 +217,6 @@ def test_a_value_is_told_as_people_write_it(value, words):
     assert in_words(value) == words
 
 
-def test_no_address_of_the_memory_is_told():
-    assert " at 0x" not in in_words(object())
-    assert " at 0x" not in in_words([object()])
-
-
 @pytest.mark.parametrize(
     ("guess", "happened", "other"),
     [
@@ -274,12 +229,6 @@ def test_no_address_of_the_memory_is_told():
 def test_an_answer_may_be_said_in_other_words(guess, happened, other):
     assert compared(guess, happened) is True
     assert compared(guess, other) is False
-
-
-def test_a_range_is_as_wide_as_the_tolerance_allows():
-    assert compared("20-30", 33) is False
-    assert compared("20-30", 33, 3) is True
-    assert compared("about 26", 27, 1) is True
 
 
 @pytest.mark.parametrize(
