@@ -38,7 +38,7 @@ def are_here() -> bool:
 
 #: For an exercise that has no hint of its own.
 _READ_AGAIN = (
-    ("Read the exercise once more, word by word, and compare it with what the check says."),
+    "Read the exercise once more, word by word, and compare it with what the check says.",
 )
 
 #: Where there are no answers, as in what an instructor releases to a class.
@@ -151,7 +151,7 @@ def reveal(exercise: str) -> Hint:
     if not are_here():
         raise ExerciseError(
             f"The answer to exercise {found.id} is not here.",
-            ("A course that was released to a class doesn't include the answers."),
+            "A course that was released to a class doesn't include the answers.",
             f'Take one hint more: hint("{found.id}").',
         )
     progress_file().change(found.id, lambda before: replace(before, answer=True))

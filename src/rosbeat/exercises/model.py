@@ -361,15 +361,13 @@ _BEATS = suspects(
     ),
     (
         "gone-quiet",
-        (
-            "Something ends the messages. Does the callback cancel its timer or "
-            "shut ROS down? Is a condition never true again?"
-        ),
+        "Something ends the messages. Does the callback cancel its timer or shut ROS down? Is a "
+        "condition never true again?",
         lambda beat: dict(list(beat.right.items())[: len(beat.done)]),
     ),
     (
         "wrong-rate",
-        ("The first tick comes after one period. What publishes in the constructor?"),
+        "The first tick comes after one period. What publishes in the constructor?",
         lambda beat: {0: (1,), **beat.right},
     ),
     (

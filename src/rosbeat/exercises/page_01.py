@@ -417,8 +417,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         title="a folder in a folder",
         hints=(
             "One `mkdir` can create several folders, one inside another.",
-            ("In a path, `/` separates the outer folder from the one inside it."),
-            ("If a parent folder is missing, too, you need the option that is short for parents."),
+            "In a path, `/` separates the outer folder from the one inside it.",
+            "If a parent folder is missing, too, you need the option that is short for parents.",
         ),
     ),
     Exercise(
@@ -429,7 +429,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         hints=(
             "`..` is the folder that contains the current one.",
             f"Count the levels from {_START} up to the workspace.",
-            ("Go up that many levels and then down into the folder you want, all in one path."),
+            "Go up that many levels and then down into the folder you want, all in one path.",
         ),
     ),
 )

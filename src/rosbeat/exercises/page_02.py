@@ -135,10 +135,8 @@ def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]
         yield Diagnosis(
             "manifest-value",
             f"The version is {manifest.version or 'not given'}.",
-            (
-                "A version consists of three numbers, separated by dots. Without one,"
-                " colcon doesn't build the package."
-            ),
+            "A version consists of three numbers, separated by dots. Without one, colcon doesn't "
+            "build the package.",
         )
     if not manifest.maintainer or not _EMAIL.fullmatch(manifest.email):
         yield Diagnosis(
@@ -337,8 +335,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         title="complete the manifest",
         points=2,
         hints=(
-            ("Two entries of the manifest are still open. Look for the blanks."),
-            ("One describes the package in a sentence; the other says what others may do with it."),
+            "Two entries of the manifest are still open. Look for the blanks.",
+            "One describes the package in a sentence; the other says what others may do with it.",
             "A licence is named by its short name, without spaces. ROS itself uses one of them, "
             "and the text above the cell names it.",
         ),
@@ -350,9 +348,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         title="a second package",
         points=2,
         hints=(
-            ("It's the command that created the first package, with other names."),
-            ("One blank is for the kind of package, the other for its dependencies."),
-            ("Both blanks begin with an option: two dashes and a word, as in the table above."),
+            "It's the command that created the first package, with other names.",
+            "One blank is for the kind of package, the other for its dependencies.",
+            "Both blanks begin with an option: two dashes and a word, as in the table above.",
         ),
     ),
 )

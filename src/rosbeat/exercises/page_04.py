@@ -63,13 +63,13 @@ FRIDGE_SUSPECTS = suspects(
      _each(partial(_state, high=26.0, low=20.0))),
     ("wrong-state", "Warm and Frost are swapped.",
      _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
-    ("wrong-state", ("Whole degrees aren't precise enough: compare the reading itself."),
+    ("wrong-state", "Whole degrees aren't precise enough: compare the reading itself.",
      _each(lambda value: _state(int(value))), _each(lambda value: _state(round(value)))),
-    ("wrong-state", ("Your node compares the rounded number. Compare the reading itself, "
-"and round only what you display."), _each(lambda value: _state(round(value, 1))),
+    ("wrong-state", "Your node compares the rounded number. Compare the reading itself, and round "
+     "only what you display.", _each(lambda value: _state(round(value, 1))),
      _each(lambda value: _state(round(value, 2)))),
-    ("wrong-state", ("It's the state of the previous reading. Does your node store a "
-"reading before it judges it?"), lambda fed: _each(_state)([fed[0], *fed[:-1]])),
+    ("wrong-state", "It's the state of the previous reading. Does your node store a reading before "
+     "it judges it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
 )  # fmt: skip
 
 
@@ -184,9 +184,8 @@ ROOM_SUSPECTS = suspects(
     ("alert-missing", "Your node compares the rounded number. Compare the reading as it comes.",
      *(lambda fed, digits=digits: _alerts()([round(one, digits) for one in fed])
        for digits in (0, 1, 2)), lambda fed: _alerts()([int(one) for one in fed])),
-    ("alert-too-many", ("The normal readings get the alerts. Is your condition the wrong way "
-"round?"), lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1)
-                                  if at not in _alerts()(fed)}),
+    ("alert-too-many", "The normal readings get the alerts. Is your condition the wrong way round?",
+     lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1) if at not in _alerts()(fed)}),
     ("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
     ("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
     ("alert-missing", f"Only the first bad reading got an alert. {_EACH_ONE}",
@@ -660,10 +659,8 @@ EXERCISES = (
         (
             "The publisher is made once, in __init__, like the sensor's; the message type and the "
             "topic are others.",
-            (
-                "A reading gets an alert if it's too high or too low: join the two "
-                "conditions with `or`."
-            ),
+            "A reading gets an alert if it's too high or too low: join the two conditions with "
+            "`or`.",
             "Create a String like a Float32, with a text in its field data.",
         ),
         draw=draw_room,
@@ -677,10 +674,8 @@ EXERCISES = (
         (
             "The node needs a memory: a list in self, which begins empty. Each reading goes into "
             "it.",
-            (
-                "Keep the readings in a list. readings[-5:] is its last five items, "
-                "or all of them if there are fewer."
-            ),
+            "Keep the readings in a list. readings[-5:] is its last five items, or all of them if "
+            "there are fewer.",
         ),
         draw=draw_hysteresis,
     ),
@@ -693,10 +688,8 @@ EXERCISES = (
         (
             "The status needs a memory: self.status. Find the new one from the reading and from "
             "the old one.",
-            (
-                "Test for High and Low first: they don't depend on the old status. "
-                "Then test whether a High or a Low has come back far enough."
-            ),
+            "Test for High and Low first: they don't depend on the old status. Then test whether a "
+            "High or a Low has come back far enough.",
         ),
         draw=draw_hysteresis,
     ),

@@ -78,15 +78,11 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         points=2,
         hints=(
             "Each program needs one string in the list of console scripts.",
-            (
-                "An entry consists of the name that you type after `ros2 run` and the"
-                " package, an equals sign, and the place of the code."
-            ),
-            (
-                "The place of the code is: the package, a dot, the file without .py, "
-                "a colon, the function."
-            ),
-            ("Two entries are two strings: put quotes around each, and a comma after each."),
+            "An entry consists of the name that you type after `ros2 run` and the package, an "
+            "equals sign, and the place of the code.",
+            "The place of the code is: the package, a dot, the file without .py, a colon, the "
+            "function.",
+            "Two entries are two strings: put quotes around each, and a comma after each.",
         ),
     ),
     Exercise(

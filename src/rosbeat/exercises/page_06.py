@@ -228,11 +228,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _judge_links,
         title="link instead of copy",
         hints=(
-            ("colcon has an option for this, and its help lists the option's name."),
-            (
-                "The line above the cell searches that help for a word. An option "
-                "begins with two dashes."
-            ),
+            "colcon has an option for this, and its help lists the option's name.",
+            "The line above the cell searches that help for a word. An option begins with two "
+            "dashes.",
         ),
     ),
 )

@@ -273,7 +273,7 @@ _FINDINGS = Exercise(
     "a system of strangers",
     3,
     (
-        ("Ask one question at a time, in the terminal `look`, and write down what you see."),
+        "Ask one question at a time, in the terminal `look`, and write down what you see.",
         "ros2 topic info --verbose names both sides of a topic; ros2 topic hz counts; ros2 "
         "param get reads; the field name of a log line names the node that logged it.",
         "Terminals do not know the depth of a queue, but this kernel made the greenhouse: "
@@ -550,10 +550,8 @@ _TUNING = Exercise(
     (
         "A parameter is declared in the constructor, with its name and its first value.",
         "get_parameter returns the parameter; its attribute `value` holds the number.",
-        (
-            "The constructor runs once, so a value that it gets there never "
-            "changes. The callback runs at each reading."
-        ),
+        "The constructor runs once, so a value that it gets there never changes. The callback runs "
+        "at each reading.",
     ),
     draw=draw_tuning,
 )
@@ -787,10 +785,10 @@ _LOG_WATCHER = Exercise(
     "a log watcher",
     3,
     (
-        ("It's an alarm like the one on page 04, with another message type."),
+        "It's an alarm like the one on page 04, with another message type.",
         "create_subscription takes Log, the topic, your method and a depth. The message has "
         "the fields level, name and msg.",
-        ("Levels are numbers: the worse, the higher. Log.WARN is the number of a warning."),
+        "Levels are numbers: the worse, the higher. Log.WARN is the number of a warning.",
     ),
     draw=draw_lines,
 )

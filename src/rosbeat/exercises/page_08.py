@@ -674,7 +674,7 @@ def _unmeasured(observation: Observation) -> Diagnosis | None:
             "deadline-wrong-side",
             f"The publisher on {bounded['publisher'].name} has a deadline, and the subscription "
             "to /temperature has none.",
-            ("The node waits for readings. Which of its endpoints receives them?"),
+            "The node waits for readings. Which of its endpoints receives them?",
         )
     return Diagnosis(
         "no-deadline",
@@ -692,15 +692,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "the current mode",
         2,
         (
-            (
-                "There are two questions: does a late-joining subscription get old "
-                "messages at all, and if so, how many? A policy answers the first, "
-                "and the depth answers the second."
-            ),
-            (
-                "QoSProfile(depth=..., durability=...) creates a profile. The "
-                "policies that you leave out keep their defaults, such as reliable."
-            ),
+            "There are two questions: does a late-joining subscription get old messages at all, "
+            "and if so, how many? A policy answers the first, and the depth answers the second.",
+            "QoSProfile(depth=..., durability=...) creates a profile. The policies that you leave "
+            "out keep their defaults, such as reliable.",
             "In the callback, compare the command with self.mode, and do nothing if they are "
             "the same.",
         ),
@@ -713,15 +708,11 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "listen to everybody",
         2,
         (
-            (
-                "There are two decisions: what can you ask for, so that no sensor is "
-                "left out? And how many readings have to wait?"
-            ),
-            (
-                "Ask for no more than the least that any sensor offers. The other "
-                "sensor offers more, and that's compatible."
-            ),
-            ("Both sensors fill the same queue. Count the readings of both in eight seconds."),
+            "There are two decisions: what can you ask for, so that no sensor is left out? And how "
+            "many readings have to wait?",
+            "Ask for no more than the least that any sensor offers. The other sensor offers more, "
+            "and that's compatible.",
+            "Both sensors fill the same queue. Count the readings of both in eight seconds.",
         ),
         draw=draw_sensors,
     ),
@@ -732,14 +723,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "count missed deadlines",
         3,
         (
-            (
-                "You need three things: a deadline in the QoS of the subscription, a "
-                "callback for its event, and a variable that counts."
-            ),
-            (
-                "QoSProfile takes deadline=Duration(...). Pass the method, without "
-                "parentheses, as SubscriptionEventCallbacks(deadline=...)."
-            ),
+            "You need three things: a deadline in the QoS of the subscription, a callback for its "
+            "event, and a variable that counts.",
+            "QoSProfile takes deadline=Duration(...). Pass the method, without parentheses, as "
+            "SubscriptionEventCallbacks(deadline=...).",
             "The event's total_count goes on from one silence to the next. Your own count begins "
             "anew with each reading.",
         ),

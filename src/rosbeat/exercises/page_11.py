@@ -196,8 +196,7 @@ ASKED: dict[str, tuple[Callable[[_Readings], float], tuple[Suspect, ...]]] = {
     "mean": (lambda r: sum(_numbers(r)) / len(_numbers(r)), _findings(
         ("nan-spreads", "A sum that contains NaN is NaN. Leave NaN out before you add.",
          lambda r: sum(value for _, value in r) / len(r)),
-        ("wrong-share", ("If you leave a reading out of the sum, leave it out of the count, "
-"too."),
+        ("wrong-share", "If you leave a reading out of the sum, leave it out of the count, too.",
          lambda r: sum(_numbers(r)) / len(r)),
         ("other-mean", "A value that occurs twice counts twice, but a set holds it only once.",
          lambda r: sum(set(_numbers(r))) / len(set(_numbers(r)))),
@@ -264,10 +263,7 @@ def _diagnose_shape(seen: BagReports) -> Diagnosis | None:
             return Diagnosis(
                 "no-dict",
                 f"The function gave back a {one.type_name}.",
-                (
-                    "Return a dictionary in braces, as the cell shows, with a name before"
-                    " each number."
-                ),
+                "Return a dictionary in braces, as the cell shows, with a name before each number.",
             )
         absent = [key for key in ASKED if key not in one.value]
         if absent:
@@ -807,10 +803,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         (
             "Each message has a time in seconds and a value. Make lists of them first.",
             "zip(readings, readings[1:]) gives each message together with the next one.",
-            (
-                "Test for NaN with the function that page 11 shows, and keep only the"
-                " numbers in a list for the mean."
-            ),
+            "Test for NaN with the function that page 11 shows, and keep only the numbers in a "
+            "list for the mean.",
         ),
         draw=draw_readings,
     ),
@@ -821,16 +815,12 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "notice a faulty sensor",
         3,
         (
-            (
-                "Test for NaN first. If the reading is NaN, leave everything else for"
-                " the next reading."
-            ),
+            "Test for NaN first. If the reading is NaN, leave everything else for the next "
+            "reading.",
             "A jump is a difference, and its sign does not matter: abs takes it away. Before the "
             "first reading there is nothing to compare with.",
-            (
-                "Count how many equal readings there were in a row. When does the "
-                "count start again? And at exactly which count do you publish?"
-            ),
+            "Count how many equal readings there were in a row. When does the count start again? "
+            "And at exactly which count do you publish?",
         ),
         draw=draw_sick,
     ),

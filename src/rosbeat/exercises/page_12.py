@@ -371,10 +371,8 @@ MONITORS = (
     ),
     _suspect(
         "nan-accepted",
-        (
-            "With NaN, <, > and == are always False, so a test for bad values "
-            "lets it pass. What would a test for good values look like?"
-        ),
+        "With NaN, <, > and == are always False, so a test for bad values lets it pass. What would "
+        "a test for good values look like?",
         _is_nan,
         lambda one: _reaction(one, True),
     ),
@@ -400,13 +398,13 @@ MONITORS = (
     ),
     _suspect(
         "refused-and-kept",
-        ("Check first, store afterwards: a refused value must not change anything."),
+        "Check first, store afterwards: a refused value must not change anything.",
         _is_nonsense,
         lambda one: _reaction(one, False, one.asked),
     ),
     _suspect(
         "reason-missing",
-        ("A client needs to know why it was refused: the response has a field for the reason."),
+        "A client needs to know why it was refused: the response has a field for the reason.",
         _is_nonsense,
         lambda one: _reaction(one, False, one.before, False),
     ),
@@ -772,7 +770,7 @@ HEATERS = (
     ),
     _at(
         "wrong-state",
-        ("If the room is already warm enough, there's nothing to wait for."),
+        "If the room is already warm enough, there's nothing to wait for.",
         Work.END, "too late", lambda goal: goal.is_reached,
     ),
     _at(
@@ -1078,10 +1076,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         (
             "The callback is handed a list of parameters, each with a name and a value. Not every "
             "one has to be in the list: the others stay as they are.",
-            (
-                "Start with the current limits, replace those that are in the list, "
-                "and compare afterwards."
-            ),
+            "Start with the current limits, replace those that are in the list, and compare "
+            "afterwards.",
             "The result has two fields: successful and reason.",
         ),
         draw=draw_parameters,
@@ -1124,11 +1120,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         (
             "`agree` accepts the cancel, but that stops nothing yet: the work has to ask its goal "
             "handle in each round.",
-            (
-                "Whatever ends the work, the heater has to be off afterwards: one "
-                "line after the loop covers both cases."
-            ),
-            ("End the goal with one of two calls. In both cases, return the result afterwards."),
+            "Whatever ends the work, the heater has to be off afterwards: one line after the loop "
+            "covers both cases.",
+            "End the goal with one of two calls. In both cases, return the result afterwards.",
         ),
         draw=draw_heating,
     ),

@@ -1104,15 +1104,11 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "the vent alone",
         3,
         (
-            ("You wrote a node like this on page 04: the calm monitor. What does it remember?"),
-            (
-                "The new state depends on the temperature and on the old state. Test "
-                "for above and below; in between, nothing happens."
-            ),
-            (
-                "Store the last published command in a variable of the node, and "
-                "publish only a different one."
-            ),
+            "You wrote a node like this on page 04: the calm monitor. What does it remember?",
+            "The new state depends on the temperature and on the old state. Test for above and "
+            "below; in between, nothing happens.",
+            "Store the last published command in a variable of the node, and publish only a "
+            "different one.",
         ),
         draw=draw_weather,
         given=_given,
@@ -1124,24 +1120,14 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "the whole greenhouse",
         TOTAL,
         (
-            (
-                "Do one requirement at a time, and run the check in between: it gives"
-                " points for each one that is met."
-            ),
-            (
-                "For the pump, draw its states: ready, running, resting. Which event "
-                "leads from one to the next, and when must it not?"
-            ),
-            (
-                "A silence doesn't trigger a callback. Let a timer check regularly "
-                "how long ago the last message was: self.get_clock().now() is the "
-                "time."
-            ),
-            (
-                "Where you check a reading is up to you: in each node, or in one node"
-                " that passes plausible readings on, on topics of its own. The second"
-                " way is shorter."
-            ),
+            "Do one requirement at a time, and run the check in between: it gives points for each "
+            "one that is met.",
+            "For the pump, draw its states: ready, running, resting. Which event leads from one to "
+            "the next, and when must it not?",
+            "A silence doesn't trigger a callback. Let a timer check regularly how long ago the "
+            "last message was: self.get_clock().now() is the time.",
+            "Where you check a reading is up to you: in each node, or in one node that passes "
+            "plausible readings on, on topics of its own. The second way is shorter.",
         ),
         draw=draw_weather,
         given=_given,

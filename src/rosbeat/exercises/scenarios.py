@@ -235,7 +235,7 @@ def look_at_workspace(answer: Answer) -> Workspace:
         raise ExerciseError(
             f"There is no workspace at {root or repr(answer)}.",
             "This check examines the folders of your workspace.",
-            ("Write workspace.folder(), and run the cells above first: they create the workspace."),
+            "Write workspace.folder(), and run the cells above first: they create the workspace.",
         )
     found = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
     # Of two with one name, the one in src under that name counts; a backup has its name, too.
