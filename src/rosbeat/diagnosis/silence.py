@@ -512,48 +512,33 @@ class _Cause:
 
 _NOT_RUN = "{node} is not spun"
 _CONDITIONS = {
-    ENDED: _Cause(
-        "node-ended",
-        "{node} has ended",
+    ENDED: _Cause("node-ended", "{node} has ended",
         "{node} called rclpy.shutdown(), which ended the node.",
         "Take that call out of the callback, and add the node again.",
-        ("has ended",),
-    ),
-    BLOCKED: _Cause(
-        "callback-blocks",
-        "a callback of {node} does not return",
+        ("has ended",)),
+    BLOCKED: _Cause("callback-blocks", "a callback of {node} does not return",
         "{callback} has started but not returned. Until it returns, no other callback of {node} "
         "runs{others}.",
         "A callback does its work once and returns: no endless loop, no `time.sleep`, no waiting "
         "for a response. Use a timer for anything that happens repeatedly.",
-        ("callback does", "not return"),
-    ),
-    PAUSED: _Cause(
-        "not-spun",
-        _NOT_RUN,
+        ("callback does", "not return")),
+    PAUSED: _Cause("not-spun", _NOT_RUN,
         "{node} is paused: messages wait in its queues, and its timers do not fire.",
         'Resume the node with `ros.resume("{name}")`.',
-        ("paused",),
-    ),
-    NOT_ADDED: _Cause(
-        "not-spun",
-        _NOT_RUN,
+        ("paused",)),
+    NOT_ADDED: _Cause("not-spun", _NOT_RUN,
         "{node} was created, but never added to the session: it is in the graph, but none of its "
         "callbacks is ever called.",
         "Add the node with `ros.add(...)`. In a program, call `rclpy.spin(node)`.",
-        ("not spun",),
-    ),
-    SILENT: _Cause(
-        "not-spun",
-        "{node} does not answer",
+        ("not spun",)),
+    SILENT: _Cause("not-spun", "{node} does not answer",
         "{node} is in the graph, but did not respond to a service that every spinning node "
         "offers. Its callbacks do not run: either the node is not spun, or one of its callbacks "
         "does not return.",
         "Look for `rclpy.spin(node)` in the node's `main`, then for an endless loop or "
         "`time.sleep` in a callback.",
-        ("does not", "answer"),
-    ),
-}
+        ("does not", "answer")),
+}  # fmt: skip
 
 
 def _of(condition: Condition, scene: Scene) -> Finding:
