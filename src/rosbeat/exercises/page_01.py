@@ -19,10 +19,8 @@ from rosbeat.exercises.scenarios import (
     CommandMeaning,
     TypedIn,
     Workspace,
-    leave_first,
     look_at_terminal,
     look_at_workspace,
-    terminal_folders,
     typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
@@ -72,8 +70,6 @@ class FolderMaking:
         tried: Each line about that folder, with the folder it was typed in, as the prompt said it.
             Empty where a page has no terminals.
         meaning: What the last of these lines has led to, if it is a known mistake.
-        outside: A line that makes such a folder, in a cell that is run by no terminal.
-        standing: The folders that the terminals of the page are in.
     """
 
     workspace: Workspace
@@ -81,8 +77,6 @@ class FolderMaking:
     is_older: bool = False
     tried: tuple[tuple[str, str], ...] = ()
     meaning: CommandMeaning | None = None
-    outside: str = ""
-    standing: tuple[str, ...] = ()
 
 
 #: This module is imported by the first cell of a page.
@@ -97,25 +91,7 @@ def _look_at_making(answer: Answer) -> FolderMaking:
     if (root / _RUNS_THROUGH).is_symlink():
         obstacle = "behind a link"
     is_older = place.is_dir() and place.stat().st_mtime < _PAGE_BEGAN
-    outside = "" if tried else _typed_outside()
-    standing = terminal_folders(root)
-    return FolderMaking(found, obstacle, is_older, tried, meaning, outside, standing)
-
-
-def _typed_outside() -> str:
-    """Return the last line that makes the folder in a cell of this page without a terminal."""
-    from IPython import get_ipython
-
-    shell = get_ipython()
-    cells = shell.history_manager.input_hist_raw if shell else []
-    lines = [
-        line.strip().lstrip("!% ")
-        for cell in cells
-        if not cell.lstrip().startswith("%%terminal")
-        for line in cell.splitlines()
-    ]
-    typed = [one for one in lines if "mkdir " in one and _is_try(one)]
-    return typed[-1] if typed else ""
+    return FolderMaking(found, obstacle, is_older, tried, meaning)
 
 
 def _is_try(line: str) -> bool:
@@ -164,22 +140,12 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
         return Diagnosis(known.mistake, known.evidence, hint)
     if typed or there:
         return _diagnose_making(typed, there, seen)
-    if seen.outside:
-        return _diagnose_outside(seen.outside)
     if not seen.tried:
         return not_attempted(f"There is no folder {_ALARM} yet.")
     said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
+    if _commands(seen.tried[-1][1])[-1][0] == "touch":
+        return Diagnosis("not-a-folder", said, "touch makes empty files. What makes folders?")
     return Diagnosis(UNKNOWN, said, _PWD)
-
-
-def _diagnose_outside(line: str) -> Diagnosis:
-    """Return what is wrong with a line in a cell that is run by no terminal."""
-    said = f"You typed `{line}` in a cell that no terminal runs."
-    hint = "Begin the cell with `%%terminal one`, as it was given, with nothing above that line."
-    if re.search(r"(?<!\S)-(-parents|\w*p)\b", line):
-        return Diagnosis(UNKNOWN, said, hint)
-    said += " It also names a folder in a folder that is not there yet."
-    return Diagnosis("parents-missing", said, f"{hint} {_PARENTS}")
 
 
 def _is_near(folder: str) -> bool:
@@ -195,7 +161,6 @@ def _letters(path: str) -> str:
 
 _BOTH = _PARENT + _CHILD
 _PWD = "A relative path starts from the terminal's current folder; pwd prints it."
-_PARENTS = "Which option of mkdir also creates the missing parent folders?"
 _ONE_LEVEL = "One level is missing. A path can contain several folders: outer/inner."
 _BETWEEN = "One level is missing: which folder is between the two?"
 _SIDE_BY_SIDE = (
@@ -289,10 +254,9 @@ def _advice_to_remove(near: set[str], seen: FolderMaking) -> str:
     if not astray:
         return ""
     listed = " and ".join(said for _, said in sorted(astray))
-    leave = next(filter(None, (leave_first(one, seen.standing) for one, _ in sorted(astray))), "")
     return (
-        f" {leave}You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with "
-        "all that is in it."
+        f" You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with all "
+        "that is in it."
     )
 
 
@@ -387,6 +351,9 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
         folder: Where the terminal is now.
     """
     first, rest = words[0], words[1:]
+    if first == "(":
+        hint = "Parentheses run a command in a shell of its own: this terminal stays where it is."
+        return "wrong-folder", hint
     if first.startswith("cd") and first[2:3] in tuple("./~\\"):
         return "space-missing", "Put a space between `cd` and the path."
     if "\\" in " ".join(words):

@@ -306,35 +306,6 @@ def typed_about(
     return typed, meaning
 
 
-def terminal_folders(root: Path) -> tuple[str, ...]:
-    """Return the folders that the terminals of this page are in.
-
-    Args:
-        root: The workspace.
-
-    Returns:
-        Each folder, relative to the workspace; absolute if that is outside.
-    """
-    return tuple(_inside(Path(one.folder), root) for one in page_terminals())
-
-
-def leave_first(folder: str, standing: Iterable[str]) -> str:
-    """Say how to leave a folder before it is removed.
-
-    Args:
-        folder: The folder that is to be removed, relative to the workspace.
-        standing: The folders that terminals are in; see `terminal_folders`.
-
-    Returns:
-        A sentence and a space; an empty text if no terminal is in the folder.
-    """
-    for place in standing:
-        if f"{place}/".startswith(f"{folder}/"):
-            up = "/".join([".."] * (place.count("/") - folder.count("/") + 1))
-            return f"A terminal is in {folder}: leave the folder first, with `cd {up}`. "
-    return ""
-
-
 def meaning_of(
     command: str, output: str, code: int, folder: Path, root: Path
 ) -> CommandMeaning | None:

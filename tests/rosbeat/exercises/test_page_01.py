@@ -30,36 +30,6 @@ def test_of_a_folder_from_before_what_was_typed_now_counts(line, status):
     assert made(*folders, tried=((PLACE, line),)).status == "passed"
 
 
-@pytest.mark.parametrize(
-    ("standing", "way"),
-    [
-        ("ressources", "cd .."),
-        ("ressources/sounds", "cd ../.."),
-        ("ressources_2", ""),
-        ("/home/you", ""),
-    ],
-)
-def test_a_folder_that_a_terminal_is_in_is_left_before_it_is_removed(standing, way):
-    hint = made("ressources", "ressources/sounds", standing=("src", standing)).hint
-    leave = f"A terminal is in ressources: leave the folder first, with `{way}`. You do not need"
-    assert (leave in hint) == bool(way)
-    assert ("A terminal is in" in hint) == bool(way)
-
-
-@pytest.mark.parametrize(
-    ("line", "mistake"),
-    [
-        ("mkdir resources/sounds/alarm", "parents-missing"),
-        ("mkdir -p resources/sounds/alarm", "new-to-me"),
-    ],
-)
-def test_a_try_outside_of_a_terminal_is_a_try(line, mistake):
-    outcome = made(outside=line)
-    assert (outcome.status, outcome.mistake) == ("failed", mistake)
-    assert f"You typed `{line}` in a cell that no terminal runs." in outcome.evidence
-    assert "%%terminal one" in outcome.hint
-
-
 @pytest.mark.parametrize("obstacle", ["a link", "a file", "behind a link"])
 def test_what_is_in_the_way_is_named(obstacle):
     outcome = made(obstacle=obstacle, tried=((PLACE, "mkdir resources/sounds/alarm"),))

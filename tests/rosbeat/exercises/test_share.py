@@ -271,7 +271,7 @@ def test_a_full_disk_is_not_told(shares, monkeypatch, eventually):
         patch.setattr(sharing.os, "write", full)
         share(wrong())
         assert tried.wait(60)
-        eventually(lambda: not sharing._writer()._is_running)
+        eventually(lambda: not sharing._writer().unfinished_tasks)
     share(wrong())
     eventually(lambda: shares.file.read_text())
 
@@ -293,7 +293,7 @@ def test_a_folder_that_hangs_holds_nobody_up(shares, monkeypatch, eventually):
     assert not shares.file.read_text()
     goes_on.set()
     eventually(lambda: len(lines()) == 101)
-    eventually(lambda: not sharing._writer()._is_running)
+    eventually(lambda: not sharing._writer().unfinished_tasks)
 
 
 def test_a_blank_is_not_shared(shares, eventually):
