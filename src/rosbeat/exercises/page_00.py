@@ -150,31 +150,14 @@ def _empty_article(observation: Observation) -> Diagnosis | None:
 
 
 EXERCISES = (
-    Exercise(
-        "00a",
-        _run_among_reporters,
-        _judge_reader,
-        "read the weather",
-        1,
-        (
-            "Look at the Reader on this page: the topic is the second argument of "
-            "create_subscription.",
-            "The name of a topic is a string, so it needs quotes.",
-        ),
-        draw=draw_articles,
-    ),
-    Exercise(
-        "00b",
-        observe,
-        _judge_reporter,
-        "report on sports",
-        1,
-        (
-            "Two things are missing: the topic of the articles, and the time from one to the next.",
-            "The topic is a string in quotes. The timer needs a number: the seconds between two "
-            "calls.",
-        ),
-        draw=draw_seconds,
-        explains=partial(explain_subscription, _SPORTS),
-    ),
-)
+    Exercise("00a", _run_among_reporters, _judge_reader, "read the weather", 1, (
+        "Look at the Reader on this page: the topic is the second argument of "
+        "create_subscription.",
+        "The name of a topic is a string, so it needs quotes.",
+    ), draw=draw_articles),
+    Exercise("00b", observe, _judge_reporter, "report on sports", 1, (
+        "Two things are missing: the topic of the articles, and the time from one to the next.",
+        "The topic is a string in quotes. The timer needs a number: the seconds between two "
+        "calls.",
+    ), draw=draw_seconds, explains=partial(explain_subscription, _SPORTS)),
+)  # fmt: skip

@@ -377,26 +377,14 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "01a",
-        _look_at_making,
-        _judge_folder,
-        title="a folder in a folder",
-        hints=(
-            "One `mkdir` can create several folders, one inside another.",
-            "In a path, `/` separates the outer folder from the one inside it.",
-            "If a parent folder is missing, too, you need the option that is short for parents.",
-        ),
-    ),
-    Exercise(
-        "01b",
-        _look_at_way,
-        _judge_way,
-        title="from here to there",
-        hints=(
-            "`..` is the folder that contains the current one.",
-            f"Count the levels from {_START} up to the workspace.",
-            "Go up that many levels and then down into the folder you want, all in one path.",
-        ),
-    ),
-)
+    Exercise("01a", _look_at_making, _judge_folder, title="a folder in a folder", hints=(
+        "One `mkdir` can create several folders, one inside another.",
+        "In a path, `/` separates the outer folder from the one inside it.",
+        "If a parent folder is missing, too, you need the option that is short for parents.",
+    )),
+    Exercise("01b", _look_at_way, _judge_way, title="from here to there", hints=(
+        "`..` is the folder that contains the current one.",
+        f"Count the levels from {_START} up to the workspace.",
+        "Go up that many levels and then down into the folder you want, all in one path.",
+    )),
+)  # fmt: skip

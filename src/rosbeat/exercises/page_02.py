@@ -319,29 +319,17 @@ def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnos
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "02a",
-        look_at_workspace,
-        _judge_manifest,
-        title="complete the manifest",
-        points=2,
-        hints=(
-            "Two entries of the manifest are still open. Look for the blanks.",
-            "One describes the package in a sentence; the other says what others may do with it.",
-            "A licence is named by its short name, without spaces. ROS itself uses one of them, "
-            "and the text above the cell names it.",
-        ),
-    ),
-    Exercise(
-        "02b",
-        _look_at_package_making,
-        _judge_second,
-        title="a second package",
-        points=2,
-        hints=(
-            "It's the command that created the first package, with other names.",
-            "One blank is for the kind of package, the other for its dependencies.",
-            "Both blanks begin with an option: two dashes and a word, as in the table above.",
-        ),
-    ),
-)
+    Exercise("02a", look_at_workspace, _judge_manifest, title="complete the manifest",
+        points=2, hints=(
+        "Two entries of the manifest are still open. Look for the blanks.",
+        "One describes the package in a sentence; the other says what others may do with it.",
+        "A licence is named by its short name, without spaces. ROS itself uses one of them, "
+        "and the text above the cell names it.",
+    )),
+    Exercise("02b", _look_at_package_making, _judge_second, title="a second package",
+        points=2, hints=(
+        "It's the command that created the first package, with other names.",
+        "One blank is for the kind of package, the other for its dependencies.",
+        "Both blanks begin with an option: two dashes and a word, as in the table above.",
+    )),
+)  # fmt: skip

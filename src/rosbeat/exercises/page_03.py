@@ -407,55 +407,29 @@ def _judge_walk(asked: _Asked, observation: Observation, more: float) -> Verdict
 
 
 EXERCISES = (
-    Exercise(
-        "03a",
-        observe,
-        _judge_beat,
-        "another sensor",
-        2,
-        (
-            "Two calls are missing: one creates the publisher, the other the timer. The page shows "
-            "both for the temperature sensor.",
-            "create_publisher takes the message type, the topic's name in quotes, and the queue "
-            "depth, in this order.",
-            "create_timer takes the time between two calls, in seconds, and the method, without "
-            "parentheses. Twice a second: how many seconds are that from one call to the next?",
-        ),
-        draw=draw_seconds,
-        explains=partial(explain_subscription, _HUMIDITY),
-    ),
-    Exercise(
-        "03b",
-        partial(_run_walk, _ROOM),
-        partial(_judge_walk, _ROOM),
-        "a living room",
-        2,
-        (
-            "Three things happen at each tick: a random step, the clamp, and a message.",
-            "random.uniform(a, b) is a number between a and b, and += adds it to what was there.",
-            "min(high, x) limits x from above, and max(low, x) from below. Put one inside the "
-            "other, and store the result in self.temperature.",
-            "Float32(data=...) creates a message, and self.publisher_.publish sends it.",
-        ),
-        draw=draw_more,
-        explains=partial(explain_subscription, _ROOM.wire),
-    ),
-    Exercise(
-        "03c",
-        partial(_run_walk, _GREENHOUSE),
-        partial(_judge_walk, _GREENHOUSE),
-        "a greenhouse, alone",
-        4,
-        (
-            "Begin with a copy of the sensor on this page, and change one thing at a time: topic, "
-            "rate, unit. Check after each change.",
-            "Four times a second means a quarter of a second between two calls.",
-            "Keep self.temperature in Celsius, with the same step and clamp. Convert only the "
-            "value that goes into the message.",
-            "The result of a calculation such as c * 9 / 5 + 32 is already a float; store it in a "
-            "variable of its own.",
-        ),
-        draw=draw_more,
-        explains=partial(explain_subscription, _GREENHOUSE.wire),
-    ),
-)
+    Exercise("03a", observe, _judge_beat, "another sensor", 2, (
+        "Two calls are missing: one creates the publisher, the other the timer. The page shows "
+        "both for the temperature sensor.",
+        "create_publisher takes the message type, the topic's name in quotes, and the queue "
+        "depth, in this order.",
+        "create_timer takes the time between two calls, in seconds, and the method, without "
+        "parentheses. Twice a second: how many seconds are that from one call to the next?",
+    ), draw=draw_seconds, explains=partial(explain_subscription, _HUMIDITY)),
+    Exercise("03b", partial(_run_walk, _ROOM), partial(_judge_walk, _ROOM), "a living room", 2, (
+        "Three things happen at each tick: a random step, the clamp, and a message.",
+        "random.uniform(a, b) is a number between a and b, and += adds it to what was there.",
+        "min(high, x) limits x from above, and max(low, x) from below. Put one inside the "
+        "other, and store the result in self.temperature.",
+        "Float32(data=...) creates a message, and self.publisher_.publish sends it.",
+    ), draw=draw_more, explains=partial(explain_subscription, _ROOM.wire)),
+    Exercise("03c", partial(_run_walk, _GREENHOUSE), partial(_judge_walk, _GREENHOUSE),
+        "a greenhouse, alone", 4, (
+        "Begin with a copy of the sensor on this page, and change one thing at a time: topic, "
+        "rate, unit. Check after each change.",
+        "Four times a second means a quarter of a second between two calls.",
+        "Keep self.temperature in Celsius, with the same step and clamp. Convert only the "
+        "value that goes into the message.",
+        "The result of a calculation such as c * 9 / 5 + 32 is already a float; store it in a "
+        "variable of its own.",
+    ), draw=draw_more, explains=partial(explain_subscription, _GREENHOUSE.wire)),
+)  # fmt: skip

@@ -638,73 +638,34 @@ def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence
 
 
 EXERCISES = (
-    Exercise(
-        "04a",
-        _feed,
-        _judge_states,
-        "watch a fridge",
-        1,
-        (
-            "The monitor of this page decides between three words, too. Compare the limits.",
-            "if, elif and else are tried from top to bottom. > and < leave the limit itself out.",
-        ),
-        draw=draw_fridge,
-    ),
-    Exercise(
-        "04b",
-        _feed,
-        _judge_alarm,
-        "raise the alarm",
-        2,
-        (
-            "The publisher is made once, in __init__, like the sensor's; the message type and the "
-            "topic are others.",
-            "A reading gets an alert if it's too high or too low: join the two conditions with "
-            "`or`.",
-            "Create a String like a Float32, with a text in its field data.",
-        ),
-        draw=draw_room,
-    ),
-    Exercise(
-        "04c",
-        partial(_feed, period=_SPACING),
-        _judge_means,
-        "the mean of five readings",
-        1,
-        (
-            "The node needs a memory: a list in self, which begins empty. Each reading goes into "
-            "it.",
-            "Keep the readings in a list. readings[-5:] is its last five items, or all of them if "
-            "there are fewer.",
-        ),
-        draw=draw_hysteresis,
-    ),
-    Exercise(
-        "04d",
-        partial(_feed, period=_SPACING),
-        _judge_hysteresis,
-        "a status with two limits",
-        2,
-        (
-            "The status needs a memory: self.status. Find the new one from the reading and from "
-            "the old one.",
-            "Test for High and Low first: they don't depend on the old status. Then test whether a "
-            "High or a Low has come back far enough.",
-        ),
-        draw=draw_hysteresis,
-    ),
-    Exercise(
-        "04e",
-        partial(_feed, period=_SPACING),
-        _judge_changes,
-        "a calm monitor",
-        1,
-        (
-            "Your node already finds the new status. What does it still know of the old one at "
-            "that moment?",
-            "Find the new status and keep it in a variable of its own first. Publish it only if "
-            "it differs from self.status, and then store it there.",
-        ),
-        draw=draw_hysteresis,
-    ),
-)
+    Exercise("04a", _feed, _judge_states, "watch a fridge", 1, (
+        "The monitor of this page decides between three words, too. Compare the limits.",
+        "if, elif and else are tried from top to bottom. > and < leave the limit itself out.",
+    ), draw=draw_fridge),
+    Exercise("04b", _feed, _judge_alarm, "raise the alarm", 2, (
+        "The publisher is made once, in __init__, like the sensor's; the message type and the "
+        "topic are others.",
+        "A reading gets an alert if it's too high or too low: join the two conditions with "
+        "`or`.",
+        "Create a String like a Float32, with a text in its field data.",
+    ), draw=draw_room),
+    Exercise("04c", partial(_feed, period=_SPACING), _judge_means, "the mean of five readings", 1, (
+        "The node needs a memory: a list in self, which begins empty. Each reading goes into "
+        "it.",
+        "Keep the readings in a list. readings[-5:] is its last five items, or all of them if "
+        "there are fewer.",
+    ), draw=draw_hysteresis),
+    Exercise("04d", partial(_feed, period=_SPACING), _judge_hysteresis, "a status with two limits",
+        2, (
+        "The status needs a memory: self.status. Find the new one from the reading and from "
+        "the old one.",
+        "Test for High and Low first: they don't depend on the old status. Then test whether a "
+        "High or a Low has come back far enough.",
+    ), draw=draw_hysteresis),
+    Exercise("04e", partial(_feed, period=_SPACING), _judge_changes, "a calm monitor", 1, (
+        "Your node already finds the new status. What does it still know of the old one at "
+        "that moment?",
+        "Find the new status and keep it in a variable of its own first. Publish it only if "
+        "it differs from self.status, and then store it there.",
+    ), draw=draw_hysteresis),
+)  # fmt: skip

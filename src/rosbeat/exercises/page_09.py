@@ -850,54 +850,30 @@ def _wrong_form(observation: Observation, place: Place, said: _Said) -> Diagnosi
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "09a",
-        _run_with_silences,
-        _judge_silence,
-        "notice the silence",
-        3,
-        (
-            "You need two callbacks: one for readings, and one that notices their absence.",
-            "They share two facts: when the last reading came, and whether the sensor is lost.",
-            "self.get_clock().now() is a time, and subtracting two times gives a duration, with "
-            "nanoseconds. Or reset a timer at each reading.",
-            "Before the first reading, no sensor can be lost. Publish only when the status you "
-            "remember changes.",
-        ),
-        draw=draw_readings,
-    ),
-    Exercise(
-        "09b",
-        _run_with_orders,
-        _judge_work,
-        "work, and keep beating",
-        3,
-        (
-            "No callback may take long: each one does a little, returns, and is called again.",
-            "To wait, use timers. One of them can signal that the work on an order is done.",
-            "A list holds the waiting orders: append new ones at its end; the first one is in "
-            "progress.",
-            "cancel() stops a timer, and reset() starts its period again; is_canceled() says "
-            "whether it's stopped.",
-        ),
-        draw=draw_work,
-    ),
-    Exercise(
-        "09c",
-        _run_everywhere,
-        _judge_places,
-        "a monitor for any place",
-        3,
-        (
-            "Whatever differs from place to place comes from outside; the code only provides the "
-            "default.",
-            "Look at the sensor on this page: declare a parameter once, with its default, and get "
-            "its value by the same name.",
-            "A name without a slash in front is completed by the node's namespace, and can be "
-            "remapped there.",
-            "Decide first: above one limit, below the other, or neither. Then make one text of the "
-            "word, the reading and the unit.",
-        ),
-        draw=draw_places,
-    ),
-)
+    Exercise("09a", _run_with_silences, _judge_silence, "notice the silence", 3, (
+        "You need two callbacks: one for readings, and one that notices their absence.",
+        "They share two facts: when the last reading came, and whether the sensor is lost.",
+        "self.get_clock().now() is a time, and subtracting two times gives a duration, with "
+        "nanoseconds. Or reset a timer at each reading.",
+        "Before the first reading, no sensor can be lost. Publish only when the status you "
+        "remember changes.",
+    ), draw=draw_readings),
+    Exercise("09b", _run_with_orders, _judge_work, "work, and keep beating", 3, (
+        "No callback may take long: each one does a little, returns, and is called again.",
+        "To wait, use timers. One of them can signal that the work on an order is done.",
+        "A list holds the waiting orders: append new ones at its end; the first one is in "
+        "progress.",
+        "cancel() stops a timer, and reset() starts its period again; is_canceled() says "
+        "whether it's stopped.",
+    ), draw=draw_work),
+    Exercise("09c", _run_everywhere, _judge_places, "a monitor for any place", 3, (
+        "Whatever differs from place to place comes from outside; the code only provides the "
+        "default.",
+        "Look at the sensor on this page: declare a parameter once, with its default, and get "
+        "its value by the same name.",
+        "A name without a slash in front is completed by the node's namespace, and can be "
+        "remapped there.",
+        "Decide first: above one limit, below the other, or neither. Then make one text of the "
+        "word, the reading and the unit.",
+    ), draw=draw_places),
+)  # fmt: skip

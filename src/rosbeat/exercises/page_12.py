@@ -1011,79 +1011,39 @@ def _blocked(seen: Observation, fed: Heating) -> Diagnosis | None:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "12a",
-        observe_service,
-        _judge_service,
-        "a threshold behind a service",
-        2,
-        (
-            "A service is made like a subscription: a type, a name, a callback. The callback is "
-            "handed a request and an empty response, fills the response, and gives it back.",
-            "Look before you keep: only a value that makes sense may become self.high. If you "
-            "refuse one, the response has a field for the reason, too.",
-            "Ask whether the value is good, and not whether it is bad: NaN is neither above nor "
-            "below anything.",
-        ),
-        draw=draw_service,
-    ),
-    Exercise(
-        "12b",
-        observe_parameters,
-        _judge_parameters,
-        "two limits that belong together",
-        3,
-        (
-            "The callback is handed a list of parameters, each with a name and a value. Not every "
-            "one has to be in the list: the others stay as they are.",
-            "Start with the current limits, replace those that are in the list, and compare "
-            "afterwards.",
-            "The result has two fields: successful and reason.",
-        ),
-        draw=draw_parameters,
-    ),
-    Exercise(
-        "12c",
-        observe_heating,
-        _judge_decisions,
-        "accept or reject a goal",
-        1,
-        (
-            "`decide` is handed the goal, and returns one of the two values of `GoalResponse`. "
-            "Compare it with the airing.",
-            "Python can compare a number with two limits at once. Are the limits themselves good?",
-        ),
-        draw=draw_decisions,
-    ),
-    Exercise(
-        "12d",
-        observe_heating,
-        _judge_heating,
-        "heat to a target",
-        2,
-        (
-            "Compare `heat` with the airing: what it counts in seconds, the thermostat reads in "
-            "degrees.",
-            "`await self.reading` gives the next temperature. Read, report, and go on while it is "
-            "too cold.",
-            "Switch the heater on before the loop, and off after it. The loop goes on while there "
-            "is no reading yet, or the newest one is below the target.",
-        ),
-        draw=draw_goals,
-    ),
-    Exercise(
-        "12e",
-        observe_heating,
-        _judge_thermostat,
-        "stop when it is canceled",
-        1,
-        (
-            "`agree` accepts the cancel, but that stops nothing yet: the work has to ask its goal "
-            "handle in each round.",
-            "Whatever ends the work, the heater has to be off afterwards: one line after the loop "
-            "covers both cases.",
-            "End the goal with one of two calls. In both cases, return the result afterwards.",
-        ),
-        draw=draw_heating,
-    ),
-)
+    Exercise("12a", observe_service, _judge_service, "a threshold behind a service", 2, (
+        "A service is made like a subscription: a type, a name, a callback. The callback is "
+        "handed a request and an empty response, fills the response, and gives it back.",
+        "Look before you keep: only a value that makes sense may become self.high. If you "
+        "refuse one, the response has a field for the reason, too.",
+        "Ask whether the value is good, and not whether it is bad: NaN is neither above nor "
+        "below anything.",
+    ), draw=draw_service),
+    Exercise("12b", observe_parameters, _judge_parameters, "two limits that belong together", 3, (
+        "The callback is handed a list of parameters, each with a name and a value. Not every "
+        "one has to be in the list: the others stay as they are.",
+        "Start with the current limits, replace those that are in the list, and compare "
+        "afterwards.",
+        "The result has two fields: successful and reason.",
+    ), draw=draw_parameters),
+    Exercise("12c", observe_heating, _judge_decisions, "accept or reject a goal", 1, (
+        "`decide` is handed the goal, and returns one of the two values of `GoalResponse`. "
+        "Compare it with the airing.",
+        "Python can compare a number with two limits at once. Are the limits themselves good?",
+    ), draw=draw_decisions),
+    Exercise("12d", observe_heating, _judge_heating, "heat to a target", 2, (
+        "Compare `heat` with the airing: what it counts in seconds, the thermostat reads in "
+        "degrees.",
+        "`await self.reading` gives the next temperature. Read, report, and go on while it is "
+        "too cold.",
+        "Switch the heater on before the loop, and off after it. The loop goes on while there "
+        "is no reading yet, or the newest one is below the target.",
+    ), draw=draw_goals),
+    Exercise("12e", observe_heating, _judge_thermostat, "stop when it is canceled", 1, (
+        "`agree` accepts the cancel, but that stops nothing yet: the work has to ask its goal "
+        "handle in each round.",
+        "Whatever ends the work, the heater has to be off afterwards: one line after the loop "
+        "covers both cases.",
+        "End the goal with one of two calls. In both cases, return the result afterwards.",
+    ), draw=draw_heating),
+)  # fmt: skip
