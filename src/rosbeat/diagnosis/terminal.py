@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from glob import escape
-from itertools import takewhile
+from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
 from rosbeat.diagnosis.mistakes import Diagnosis
@@ -151,26 +151,25 @@ def split_commands(text: str) -> list[tuple[str, ...]]:
     Args:
         text: What was typed; several lines, or several commands in a line, are fine.
     """
-    found: list[tuple[str, ...]] = []
-    for line in text.replace("\\\n", " ").splitlines():
-        try:
-            lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
-            lexer.whitespace_split = True
-            words = list(lexer)
-        except ValueError:  # a quote is not closed
-            words = line.split()
-        found += _split(words)
-    return found
+    lines = text.replace("\\\n", " ").splitlines()
+    return [tuple(_from_the_program(one)) for line in lines for one in commands_in(line)]
 
 
-def _split(words: list[str]) -> list[tuple[str, ...]]:
-    found: list[list[str]] = [[]]
-    for word in words:
-        if word in _SEPARATORS:
-            found.append([])
-        else:
-            found[-1].append(word)
-    return [tuple(_from_the_program(one)) for one in found if one]
+def commands_in(line: str, escape: str = "\\") -> list[list[str]]:
+    """Return the words of each command in a line.
+
+    Args:
+        line: What was typed.
+        escape: What takes its meaning from the next sign; if it is empty, a backslash stays.
+    """
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
+    lexer.whitespace_split, lexer.escape = True, escape
+    try:
+        words = list(lexer)
+    except ValueError:  # a quote is not closed
+        words = line.split()
+    parts = groupby(words, _SEPARATORS.__contains__)
+    return [list(one) for is_separator, one in parts if not is_separator]
 
 
 def _from_the_program(words: list[str]) -> list[str]:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import posixpath
 import re
-import shlex
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.terminal import commands_in
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import Suspect, name_mistake
 from rosbeat.exercises.scenarios import (
@@ -27,28 +28,8 @@ from rosbeat.exercises.workspace_model import alike, diagnosis_of
 from rosbeat.workspace.catching_up import FOLDERS
 from rosbeat.workspace.place import NAME, workspace
 
-# Lines that were typed.
-
-_SEPARATORS = {";", "&&", "||", "|", "&"}
-
-
-def _commands(line: str) -> list[list[str]]:
-    """Return the words of each command in a line."""
-    lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
-    lexer.whitespace_split = True
-    lexer.escape = ""  # a backslash stays to be seen
-    try:
-        words = list(lexer)
-    except ValueError:  # a quote is not closed
-        words = line.split()
-    found: list[list[str]] = [[]]
-    for word in words:
-        if word in _SEPARATORS:
-            found.append([])
-        else:
-            found[-1].append(word)
-    return [one for one in found if one]
-
+#: Returns the words of each command in a line; a backslash stays to be seen.
+_commands = partial(commands_in, escape="")
 
 # 01a, a folder in a folder: what is in the workspace, and what was typed to make it.
 
