@@ -33,13 +33,6 @@ def test_text_and_html_say_the_same(word):
         assert all(remark in view for remark in shown.outcome.remarks)
 
 
-def test_a_failed_outcome_says_how_to_get_more_help():
-    text, html = views(OUTCOMES["not there yet"])
-    assert text.endswith('More help: hint("03a")')
-    assert "hint(&quot;03a&quot;)" in html
-    assert all("hint(" not in view for view in views(OUTCOMES["still open"]))
-
-
 def test_a_known_mistake_is_named():
     for mistake, known in MISTAKES.items():
         for view in views(failed("03a", "Nothing.", "Look.", mistake)):
@@ -101,13 +94,6 @@ def test_each_requirement_has_a_row_with_a_sign_and_a_word():
     html = Shown(PARTS).html()
     assert "✗ R2 not yet, 0 of 2:" in html
     assert "It stayed &lt;open&gt;." in html
-
-
-def test_the_record_holds_the_parts_if_there_are_any():
-    record = json.loads(json.dumps(Shown(PARTS).record()))
-    assert [part["id"] for part in record["parts"]] == ["R1", "R2", "R3"]
-    assert tuple(Part(**part) for part in record["parts"]) == PARTS.parts
-    assert "parts" not in Shown(OUTCOMES["passed"]).record()
 
 
 # Frames.

@@ -9,12 +9,11 @@ from bank.pages import solution
 from rosbeat import Session, check
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.cards import MIME, Shown
+from rosbeat.exercises.cards import Shown
 from rosbeat.exercises.check import NotPassedError, for_nbgrader
 from rosbeat.exercises.exercise import (
     Exercise,
     before_judging,
-    not_attempted,
     passed,
 )
 from rosbeat.exercises.progress import Standing, progress_file
@@ -41,13 +40,6 @@ def test_every_check_is_remembered_with_its_points_and_its_mistake(tmp_path, mon
     assert progress_file().standings()["03a"] == Standing(
         "not attempted", True, passed.points, attempts=3, mistake=failed.mistake
     )
-
-
-def test_a_refused_check_leaves_no_trace(tmp_path, monkeypatch):
-    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
-    with pytest.raises(ExerciseError):
-        check("01a", tmp_path / "nowhere")
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_check_answers_though_nothing_can_be_remembered(tmp_path, monkeypatch, capsys):
@@ -118,11 +110,6 @@ def fault(kind="ValueError", text="too small", callback="tick", line=4, code="f(
     return Fault(0, "/sensor", callback, kind, text, line, code)
 
 
-def test_a_blank_means_not_attempted_whatever_else_went_wrong():
-    observation = Observation(0, 0, faults=(fault(), fault("NameError", "name '____' is not ...")))
-    assert before_judging(observation) == not_attempted()
-
-
 def test_an_exception_is_told_with_the_learners_line():
     outcome = before_judging(Observation(0, 0, faults=(fault(),)))
     assert "tick raised ValueError: too small." in outcome.evidence
@@ -151,15 +138,6 @@ def shell():
 def bundle(shown, shell):
     """What Jupyter makes of a cell's last value; empty if the value shows itself."""
     return shell.display_formatter.format(shown)[0]
-
-
-@pytest.mark.parametrize("execution", ["autograde", "validate"])
-def test_all_points_are_shown_and_leave_no_result(execution, shell):
-    with capture_output() as seen:
-        assert bundle(for_nbgrader(RIGHT, execution), shell) == {}
-    (output,) = seen.outputs
-    assert output.data["text/plain"] == str(Shown(RIGHT))
-    assert output.data[MIME]["points"] == 2
 
 
 def test_some_points_are_a_number_and_words_beside_it(shell):

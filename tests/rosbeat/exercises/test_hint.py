@@ -48,18 +48,6 @@ def test_those_so_far_are_shown_again_and_not_counted():
     assert hint("03a", again=True).answer == ANSWER
 
 
-def test_they_are_counted_for_each_exercise_and_kept_in_the_file():
-    hint("03a")
-    hint("03a")
-    hint("00a")
-    for _ in range(5):
-        hint("03a")
-    found = progress_file().standings()
-    assert (found["03a"].hints, found["03a"].answer) == (2, True)
-    assert (found["00a"].hints, found["00a"].answer) == (1, False)
-    assert found["03a"].attempts == 0
-
-
 def test_an_exercise_without_a_cell_says_where_the_answer_is(monkeypatch):
     bare = Exercise("system", None, None, "", 1, HINTS)
     monkeypatch.setitem(registry.EXERCISES, "system", bare)
@@ -126,15 +114,6 @@ def test_a_check_without_an_answer_says_what_to_hand_over(says):
     with pytest.raises(ExerciseError) as caught:
         check("03a")
     says(caught.value, "no answer to exercise 03a", 'check("03a", ...)')
-
-
-def test_a_class_in_the_place_of_the_id_is_told_so(says):
-    class WeatherReader:
-        pass
-
-    with pytest.raises(ExerciseError) as caught:
-        check(WeatherReader)
-    says(caught.value, "`WeatherReader` is no id", "check(")
 
 
 # Answers.

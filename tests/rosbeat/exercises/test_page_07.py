@@ -103,15 +103,6 @@ def test_the_truth_comes_from_the_greenhouse_and_is_never_told():
             assert str(value) not in said, outcome
 
 
-def test_what_is_found_elsewhere_is_named():
-    cases = {0: ("/gardener", "sides-confused"), 2: (0.1, "period-for-rate"),
-             3: (7, "sides-confused"), 4: ("/wind", "sides-confused"),
-             5: ("/dust", "sides-confused"), 7: (440, "finding-wrong")}  # fmt: skip
-    for at, (given, mistake) in cases.items():
-        assert judged({KEYS[at]: given}).mistake == mistake
-    assert "2 more" in judged({KEYS[0]: "/bell", KEYS[2]: 3, KEYS[4]: "/wind"}).evidence
-
-
 def test_blanks_are_told_apart_from_wrong_findings():
     assert judged(dict.fromkeys(KEYS, "____")).status == "not attempted"
     outcome = judged({KEYS[3]: "____", KEYS[6]: ""})

@@ -92,15 +92,6 @@ def test_nothing_but_the_truth_is_accepted(number):
             assert ((found.mistake if found else None) in right) == true, (name, place, found)
 
 
-def test_a_place_may_be_written_without_its_slash_or_its_namespace():
-    patient = Ward(12).chart(4)
-    (truth,) = patient.truths
-    assert truth.mistake == "wrong-namespace"
-    for place in (*truth.places, *(one.lstrip("/") for one in truth.places)):
-        assert weigh(patient, [Claim(truth.mistake, place)]) is None
-    assert weigh(patient, [Claim(truth.mistake, "/")]).mistake == "no-such-place"
-
-
 def test_hints_are_counted_and_cost_nothing():
     assert check("10a", lambda: RIGHT).outcome.evidence.endswith("are diagnosed.")
     for said in ("(With 1 hint.)", "(With 2 hints.)"):

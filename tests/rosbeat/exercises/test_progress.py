@@ -20,14 +20,13 @@ from parsed_html import Shown
 from rosbeat import cli, progress
 from rosbeat.authoring.build import compare
 from rosbeat.exercises import progress as file
-from rosbeat.exercises.exercise import failed, not_attempted, passed
+from rosbeat.exercises.exercise import failed, passed
 from rosbeat.exercises.progress import (
     ProgressFile,
     Standing,
     progress_file,
 )
 from rosbeat.exercises.registry import EXERCISES, PAGES
-from rosbeat.records import Outcome
 from rosbeat.workspace import place
 
 
@@ -41,16 +40,6 @@ def after(*outcomes):
 def test_attempts_are_counted_and_the_last_mistake_is_kept():
     standing = after(failed("03a", "", "", "depth-missing"), failed("03a", "", "", "wrong-rate"))
     assert (standing.attempts, standing.status, standing.mistake) == (2, "failed", "wrong-rate")
-
-
-def test_who_has_passed_once_has_passed():
-    standing = after(passed(""), failed("03a", "", ""), not_attempted())
-    assert (standing.status, standing.outcome, standing.attempts) == ("passed", "not attempted", 2)
-
-
-def test_the_most_points_count():
-    points = [Outcome("03c", "failed", points=number, out_of=4) for number in (1, 3, 2)]
-    assert after(*points).points == 3
 
 
 # The file.
@@ -192,15 +181,6 @@ def test_where_nothing_can_be_written_it_is_said_once_and_remembered(
     assert "cannot be saved" in told[0]
 
 
-def test_what_could_not_be_written_is_written_later(remembered, folder):
-    folder.write_text("mine")
-    remembered.change("03a", one_more)
-    folder.unlink()
-    remembered.change("03b", one_more)
-    expected = {"03a": Standing(attempts=1), "03b": Standing(attempts=1)}
-    assert ProgressFile(folder).standings() == expected
-
-
 KERNEL = """
 import sys
 from dataclasses import replace
@@ -323,12 +303,6 @@ def test_it_says_where_to_go_on(open_page, done, here, onward):
     assert onward in found.links or "on this page" in onward
 
 
-def test_there_is_no_link_to_a_page_that_is_not_there(home):
-    found = shown()
-    assert found.links == {}
-    assert "Continue here: 00 Hear the heartbeat." in found.paragraphs[0]
-
-
 def test_the_list_is_shown_also_where_the_folder_of_the_kernel_is_gone(home, tmp_path, monkeypatch):
     (tmp_path / "gone").mkdir()
     monkeypatch.chdir(tmp_path / "gone")
@@ -412,12 +386,6 @@ def test_the_same_as_json(two_checked, capsys):
     second = data["exercises"][1]
     assert (second["status"], second["mistake"], second["hints"]) == ("failed", "wrong-rate", 2)
     assert (second["page"], second["title"]) == ("00", EXERCISES["00b"].title)
-
-
-def test_a_file_that_cannot_be_read_is_an_empty_one(two_checked, capsys):
-    progress_file().path.write_text("{")
-    assert cli.main(["progress"]) == 0
-    assert f"0 of {len(EXERCISES)} exercises passed" in capsys.readouterr().out
 
 
 # The course's home page.
