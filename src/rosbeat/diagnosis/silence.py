@@ -390,6 +390,7 @@ def _nobody(sides: Sides, scene: Scene) -> Finding:
 
 def _no_publisher(sides: Sides, scene: Scene) -> Finding:
     listeners = sides.subscriptions
+    published = listing(_with_publishers(scene.graph))
     start = f"tart the node that publishes{_how_to_start(scene)}, and compare the topic name in"
     # Others listen to the near one, so it may well be another topic: a question, and no verdict.
     near = nearest(sides.topic, _with_publishers(scene.graph))
@@ -403,7 +404,7 @@ def _no_publisher(sides: Sides, scene: Scene) -> Finding:
         "no-publisher",
         f"no node publishes on {sides.topic}",
         f"{nodes_of(listeners)} {verb(listeners, 'subscribes', 'subscribe')} to it, but no node "
-        f"publishes{_before(scene)}. {_published_topics(scene.graph)}",
+        f"publishes{_before(scene)}. Topics with a publisher: {published or 'none'}.",
         f"{asked}{start} its `create_publisher`.",
         [_near_miss(near, sides.topic)] if near else [],
     )
@@ -416,10 +417,6 @@ def _before(scene: Scene) -> str:
     last = scene.former[-1]
     who = "another process" if last.node == "?" else last.node
     return f" now; {who} published until {_at(last.last_ns)}, and is no longer running"
-
-
-def _published_topics(graph: GraphSnapshot) -> str:
-    return f"Topics with a publisher: {listing(_with_publishers(graph)) or 'none'}."
 
 
 def _with_publishers(graph: GraphSnapshot) -> list[str]:
@@ -485,18 +482,14 @@ def nodes(sides: Sides, scene: Scene) -> Iterator[Finding]:
 def _conditions(ends: tuple[Endpoint, ...], scene: Scene) -> list[Condition]:
     """Return those of the nodes on the topic, and of whoever holds up all others."""
     here = {end.node for end in ends}
-    speaks = {end.node for end in ends if end.kind == "publisher" and _is_heard(end, scene)}
+    # A program may well publish in a loop of its own and never spin.
+    speaks = {end.node for end in ends if end.kind == "publisher" and scene.beat(end).count > 0}
     return [
         one
         for one in scene.conditions
         if (one.state == BLOCKED and not scene.virtual)
         or (one.node in here and not (one.state == SILENT and one.node in speaks))
     ]
-
-
-def _is_heard(end: Endpoint, scene: Scene) -> bool:
-    # A program may well publish in a loop of its own and never spin.
-    return scene.beat(end).count > 0
 
 
 @dataclass(frozen=True)

@@ -502,10 +502,6 @@ def _mean_each_second(seconds: Seconds) -> Seconds:
     return [means.get(place * _SPACING, (None,))[0] for place in range(1, len(seconds) + 1)]
 
 
-def _of_the_mean(seconds: Seconds, model: Model) -> Track:
-    return model(_mean_each_second(seconds))
-
-
 def _hysteresis_suspects(each: bool) -> Iterator[tuple[str, str, Model]]:
     """Generate what can be wrong with the two limits, of a node that publishes each or changes."""
     says = partial(_statuses, compares=not each)
@@ -521,7 +517,7 @@ def _hysteresis_suspects(each: bool) -> Iterator[tuple[str, str, Model]]:
         "The two limits of the way back have changed places: 25 belongs to High, and 21 to Low."
     )
     yield lost, swapped, says({"back_high": 21.0, "back_low": 25.0})
-    yield "wrong-state", _OF_THE_MEAN, partial(_of_the_mean, model=says())
+    yield "wrong-state", _OF_THE_MEAN, lambda seconds: says()(_mean_each_second(seconds))
 
 
 def _first_of_each(said: Track) -> Track:

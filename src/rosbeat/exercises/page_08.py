@@ -630,7 +630,8 @@ def _describe_number(mismatch: Mismatch, late: float) -> Diagnosis:
     """Describe the first message that is not as it should be."""
     if not mismatch.done:
         ((due, wanted),) = mismatch.right
-        evidence = f"A deadline was missed at {due:g} s, the {_nth(wanted)} in a row, and nothing "
+        nth = {1: "first", 2: "second", 3: "third"}.get(wanted, f"{wanted}th")
+        evidence = f"A deadline was missed at {due:g} s, the {nth} in a row, and nothing "
         return Diagnosis("change-missing", f"{evidence}was published.", _EVENTS)
     ((at, number),) = mismatch.done
     evidence = f"Message {mismatch.at + 1} on /missed was {number}, at {at:g} s; "
@@ -643,10 +644,6 @@ def _describe_number(mismatch: Mismatch, late: float) -> Diagnosis:
     if at > due and number != wanted:
         return Diagnosis("change-missing", evidence, _EVENTS)
     return Diagnosis("wrong-deadline", evidence, _RESTART if at < due else _DUE)
-
-
-def _nth(number: int) -> str:
-    return {1: "first", 2: "second", 3: "third"}.get(number, f"{number}th")
 
 
 def _unmeasured(observation: Observation) -> Diagnosis | None:

