@@ -178,84 +178,54 @@ def _wrong_name_argument(fault: Fault) -> Meaning | None:
 
 _NODE_RULES: tuple[Rule, ...] = (
     _no_node,
-    Row(
-        "exits",
-        r"^SystemExit: ",
+    Row("exits", r"^SystemExit: ",
         "This line ends the whole program, and every node in it.",
-        "A node runs until it is stopped from outside. Remove that line.",
-    ),
-    Row(
-        "super-missing",
-        rf"has no attribute '({_MADE_BY_NODE})'",
+        "A node runs until it is stopped from outside. Remove that line."),
+    Row("super-missing", rf"has no attribute '({_MADE_BY_NODE})'",
         "The node is used before it is initialized: super().__init__ has not been called yet.",
-        _SUPER,
-    ),
-    Row(
-        "super-missing",
-        r"'super' object has no attribute '(\w+)'",
+        _SUPER),
+    Row("super-missing", r"'super' object has no attribute '(\w+)'",
         "The parent's constructor is not called {1}.",
-        _SUPER,
-    ),
-    Row(
-        "super-missing",
-        r"'__init__' requires a 'super' object",
+        _SUPER),
+    Row("super-missing", r"'__init__' requires a 'super' object",
         "The parentheses after super are missing: super() finds the parent, super alone does not.",
-        _SUPER,
-    ),
+        _SUPER),
     _name_missing,
     _wrong_name_argument,
-    Row(
-        "invalid-name",
-        r"unknown substitution|topic name .* is invalid",
+    Row("invalid-name", r"unknown substitution|topic name .* is invalid",
         "The topic's name contains braces, and ROS cannot substitute their content.",
-        "Only an f-string, with an f before its quotes, replaces braces with values.",
-    ),
-    Row(  # row 12; ROS says in a sentence what is wrong with the name, and then the name
-        "invalid-name",
+        "Only an f-string, with an f before its quotes, replaces braces with values."),
+    # Row 12: ROS says in a sentence what is wrong with the name, and then the name.
+    Row("invalid-name",
         r"^Invalid(?:NodeName|TopicName|ServiceName|Namespace)\w*: [\w ]+: (.+):\n\s*'(.*)'",
         "ROS does not allow the name '{2}': {1}.",
         "Names consist of English letters, digits and `_`, and begin with a letter. In the name "
         "of a topic or a service, a slash may separate two parts, but may not be the last "
-        "character.",
-    ),
-    Row(
-        "type-mismatch",
-        r"invalid allocator|existing topic name .* incompatible type",
+        "character."),
+    Row("type-mismatch", r"invalid allocator|existing topic name .* incompatible type",
         "The topic already exists with another message type.",
         "All messages on a topic have the same type. Which type do the other nodes use on this "
-        "topic?",
-    ),
-    Row(
-        "not-initialised",
-        r"^(?:NotInitializedException|NoSessionError): ",
+        "topic?"),
+    Row("not-initialised", r"^(?:NotInitializedException|NoSessionError): ",
         "A node was created before ROS was started.",
         "A program starts ROS with one call, before it creates its first node. Look at the "
-        "beginning of main.",
-    ),
-    Row(
-        "init-in-with",
-        # Where ROS runs already, `init` itself fails. Python 3.10 says no more than `__enter__`.
+        "beginning of main."),
+    # Where ROS runs already, `init` itself fails. Python 3.10 says no more than `__enter__`.
+    Row("init-in-with",
         r"Context\.init\(\) must only be called once|: __enter__$"
         r"|'NoneType' object does not support the context manager protocol",
         "In this version of ROS, `rclpy.init` returns nothing, so `with` has nothing to work with.",
         "Newer versions of ROS support that form. Here, use two separate calls to start ROS and "
         "to shut it down.",
-        r"\bwith\b.*\binit\(",
-    ),
-    Row(
-        "initialised-twice",
-        r"Context\.init\(\) must only be called once",
+        r"\bwith\b.*\binit\("),
+    Row("initialised-twice", r"Context\.init\(\) must only be called once",
         "ROS was started twice.",
-        "A program starts ROS only once. Look for a second rclpy.init, in main and elsewhere.",
-    ),
-    Row(
-        "shut-down-twice",
-        r"must be initialized before it can be shutdown|rcl_shutdown already",
+        "A program starts ROS only once. Look for a second rclpy.init, in main and elsewhere."),
+    Row("shut-down-twice", r"must be initialized before it can be shutdown|rcl_shutdown already",
         "ROS was shut down a second time.",
         "Ctrl+C also shuts ROS down. `rclpy.try_shutdown` does nothing if ROS is already shut "
-        "down.",
-    ),
-)
+        "down."),
+)  # fmt: skip
 
 
 # Callbacks: those that do not return, that have other parameters, or are nothing to call.
@@ -405,29 +375,20 @@ _CALL_RULES: tuple[Rule, ...] = (
     calls.wrong_call,
     calls.refused_callback,
     _not_a_message_type,
-    Row(
-        "wrong-depth",
-        r"Expected QoSProfile or int|history depth must be greater",
+    Row("wrong-depth", r"Expected QoSProfile or int|history depth must be greater",
         "The value given as the queue depth is not a valid depth.",
-        calls.KINDS["depth"],
-    ),
+        calls.KINDS["depth"]),
     # Where the call itself is not known, in a terminal.
-    Row(
-        "depth-missing",
-        r"create_publisher\(\) missing 1 .*: 'qos_profile'",
+    Row("depth-missing", r"create_publisher\(\) missing 1 .*: 'qos_profile'",
         "The last argument, the queue depth, is missing.",
-        calls.ORDER["create_publisher"],
-    ),
-    Row(
-        "argument-missing",
-        r"create_\w+\(\) missing 1 .*: 'qos_profile'",
+        calls.ORDER["create_publisher"]),
+    Row("argument-missing", r"create_\w+\(\) missing 1 .*: 'qos_profile'",
         "An argument is missing: either the queue depth, or the callback before it.",
-        calls.ORDER["create_subscription"],
-    ),
+        calls.ORDER["create_subscription"]),
     calls.wrong_timer,
     _called_with_others,
     _nothing_to_call,
-)
+)  # fmt: skip
 
 
 # Services and actions: what a callback gives back, and how work on a goal ends.
@@ -475,130 +436,77 @@ def _called_with_more(fault: Fault) -> Meaning | None:
 
 
 _ANSWER_RULES: tuple[Rule, ...] = (
-    Row(
-        "wrong-argument",
-        r"The service type provided is not valid \(<class '[\w.]*?(\w+)'>\)",
+    Row("wrong-argument", r"The service type provided is not valid \(<class '[\w.]*?(\w+)'>\)",
         "{1} is not a service type: it is a single message, and a service type consists of two.",
         "A service type is a class that contains a Request and a Response. Which one does this "
-        "service use?",
-    ),
-    Row(
-        "wrong-argument",
-        r"^TypeError: Node\.create_service\(\) takes 4 positional",
+        "service use?"),
+    Row("wrong-argument", r"^TypeError: Node\.create_service\(\) takes 4 positional",
         "create_service was given too many arguments.",
-        calls.ORDER["create_service"],
-    ),
-    Row(
-        "callback-missing",
-        r"^TypeError: Node\.create_service\(\) missing 1 .*: 'callback'",
+        calls.ORDER["create_service"]),
+    Row("callback-missing", r"^TypeError: Node\.create_service\(\) missing 1 .*: 'callback'",
         "create_service was called without a callback.",
-        calls.ORDER["create_service"],
-    ),
+        calls.ORDER["create_service"]),
     _not_given_back,
-    Row(
-        "result-missing",
-        r"'result' field must be a sub message of type",
+    Row("result-missing", r"'result' field must be a sub message of type",
         "The execute callback of a goal ended without returning a Result.",
-        "Create a Result of the action, fill its field, and return it.",
-    ),
-    Row(
-        "feedback-wrong",
-        r"^TypeError: $",
+        "Create a Result of the action, fill its field, and return it."),
+    Row("feedback-wrong", r"^TypeError: $",
         "publish_feedback was given something other than a Feedback message of the action.",
         "An action type contains three classes: Goal, Feedback and Result.",
-        "publish_feedback",
-    ),
-    Row(
-        "canceled-unasked",
-        r"invalid transition from state \w+ with event CANCELED",
+        "publish_feedback"),
+    Row("canceled-unasked", r"invalid transition from state \w+ with event CANCELED",
         "A goal was reported as canceled, but no client had requested that.",
-        "Ask the goal handle first whether a cancel was requested.",
-    ),
-    Row(
-        "ended-twice",
-        r"invalid transition from state (\w+) with event",
+        "Ask the goal handle first whether a cancel was requested."),
+    Row("ended-twice", r"invalid transition from state (\w+) with event",
         "A goal that had already ended ({1}) was ended again.",
-        "A goal ends once, so each path through the callback makes only one of these calls.",
-    ),
-    Row(
-        "await-missing",
-        r"^TypeError: (?!.* is not callable).*'Future'",
+        "A goal ends once, so each path through the callback makes only one of these calls."),
+    Row("await-missing", r"^TypeError: (?!.* is not callable).*'Future'",
         "A future is used instead of its result.",
-        "A future stands for a result that isn't available yet. What does await do with a future?",
-    ),
-    Row(
-        "wrong-argument",
+        "A future stands for a result that isn't available yet. What does await do with a future?"),
+    Row("wrong-argument",
         r"non-integer .*range|'float' object cannot be interpreted as an integer",
         "random.randint was given a number with a decimal point, but it draws whole numbers only.",
         "Which function of the random module draws a decimal number?",
-        r"\brandint\(",
-    ),
-    Row(
-        "await-missing",
-        r"^TypeError: .*\bNoneType\b",
+        r"\brandint\("),
+    Row("await-missing", r"^TypeError: .*\bNoneType\b",
         "result() was called on a future that had no result yet, so it returned None.",
         "A future stands for a result that isn't available yet. Which keyword waits for it?",
-        r"\.result\(\)",
-    ),
-    Row(
-        "not-an-integer",
-        r"'float' object cannot be interpreted as an integer",
+        r"\.result\(\)"),
+    Row("not-an-integer", r"'float' object cannot be interpreted as an integer",
         "A number with a decimal point is used where a whole number is required.",
-        "A sequence of int32 takes whole numbers only, and to Python 19.0 is a float.",
-    ),
+        "A sequence of int32 takes whole numbers only, and to Python 19.0 is a float."),
     _called_with_more,
-)
+)  # fmt: skip
 
 
 # Parameters.
 
 _PARAMETER_RULES: tuple[Rule, ...] = (
-    Row(
-        "parameter-type",
-        r"parameter '([^']+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'",
+    Row("parameter-type", r"parameter '([^']+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'",
         "The parameter {1} was set to {2}, of type {3}, but was declared with a value of type {4}.",
         "The default value in declare_parameter determines the type: 20 is an INTEGER, a whole "
-        "number, and 20.0 is a DOUBLE, a decimal number.",
-    ),
-    Row(
-        "parameter-type",
-        r"not one of the allowed types",
+        "number, and 20.0 is a DOUBLE, a decimal number."),
+    Row("parameter-type", r"not one of the allowed types",
         "A parameter was given a value of a type that no parameter can have.",
-        "The argument after the name is the default value: a number, a string, True or False.",
-    ),
-    Row(
-        "arguments-swapped",
-        r"^TypeError: First element .* in parameters list is not a str",
+        "The argument after the name is the default value: a number, a string, True or False."),
+    Row("arguments-swapped", r"^TypeError: First element .* in parameters list is not a str",
         "declare_parameter got something else instead of the parameter's name.",
-        "The name comes first, in quotes, and the default value second.",
-    ),
-    Row(
-        "wrong-argument",
-        r"Node\.get_parameter\(\) takes 2 positional",
+        "The name comes first, in quotes, and the default value second."),
+    Row("wrong-argument", r"Node\.get_parameter\(\) takes 2 positional",
         "get_parameter takes only the name of a parameter, but was given more arguments.",
-        "The default value is given once, where the parameter is declared.",
-    ),
-    Row(
-        "parameter-undeclared",
-        r"undeclared parameter\(s\): \W*(.+?)\W*$",
+        "The default value is given once, where the parameter is declared."),
+    Row("parameter-undeclared", r"undeclared parameter\(s\): \W*(.+?)\W*$",
         "The node reads a parameter that is not declared: {1}.",
         "Declare a parameter once, in the constructor, before the node reads its value. Compare "
-        "the two names letter by letter.",
-    ),
-    Row(
-        "parameter-twice",
-        r"already declared: \W*(.+?)\W*$",
+        "the two names letter by letter."),
+    Row("parameter-twice", r"already declared: \W*(.+?)\W*$",
         "The parameter {1} is declared twice.",
-        "Declare a parameter once, in the constructor; a callback only reads its value.",
-    ),
-    Row(
-        "parameter-for-value",
-        r"Error: .*'Parameter(?:Value)?'",
+        "Declare a parameter once, in the constructor; a callback only reads its value."),
+    Row("parameter-for-value", r"Error: .*'Parameter(?:Value)?'",
         "A Parameter object, which has a name, a type and a value, is used as if it were the "
         "value.",
-        "Which attribute of a parameter holds its value?",
-    ),
-)
+        "Which attribute of a parameter holds its value?"),
+)  # fmt: skip
 
 
 # Quality of service. rclpy checks most of a `QoSProfile` with an `assert` that says nothing.
@@ -686,37 +594,26 @@ def _called_for_an_event(fault: Fault, found: Found) -> bool:
 
 
 _QOS_RULES: tuple[Rule, ...] = (
-    Row(
-        "depth-missing",
-        r"^InvalidQoSProfileException: .*depth",
+    Row("depth-missing", r"^InvalidQoSProfileException: .*depth",
         "QoSProfile was called without depth=, the number of messages that the queue holds.",
-        "A profile needs depth=, and takes any other policy that differs from the default.",
-    ),
+        "A profile needs depth=, and takes any other policy that differs from the default."),
     _without_a_name,
     _of_another_name,
     _policy_of_another_kind,
     _no_such_policy,
-    Row(
-        "callback-called",
-        r"^TypeError: .*?(\w+)\(\) missing 1 required positional argument",
+    Row("callback-called", r"^TypeError: .*?(\w+)\(\) missing 1 required positional argument",
         "{1} is called while the node is being created, instead of being passed.",
         "Pass the method itself, without parentheses after its name: ROS calls it later.",
-        when=_called_for_an_event,
-    ),
-    Row(
-        "wrong-argument",
-        r"'(\w+)' object has no attribute 'create_event_h",
+        when=_called_for_an_event),
+    Row("wrong-argument", r"'(\w+)' object has no attribute 'create_event_h",
         "event_callbacks was given a {1}, which does not name an event.",
         "A subscription takes SubscriptionEventCallbacks(...), a publisher "
-        "PublisherEventCallbacks(...). Their keyword arguments name the events.",
-    ),
-    Row(
-        "wrong-argument",
-        r"incompatible constructor arguments.*\n.*EventHandle",
+        "PublisherEventCallbacks(...). Their keyword arguments name the events."),
+    Row("wrong-argument", r"incompatible constructor arguments.*\n.*EventHandle",
         "These event callbacks belong to the other side of a topic.",
-        "A subscription takes SubscriptionEventCallbacks, and a publisher PublisherEventCallbacks.",
-    ),
-)
+        "A subscription takes SubscriptionEventCallbacks, and a publisher "
+        "PublisherEventCallbacks."),
+)  # fmt: skip
 
 
 # Decimal numbers with a comma.
@@ -749,16 +646,14 @@ _NO_COMMA = (
 )
 _COMMA_RULES: tuple[Rule, ...] = (
     _decimal_comma,
-    Row(
-        "decimal-comma",
+    Row("decimal-comma",
         r"can only concatenate tuple \(not \"(?:float|int)\"\)"
         r"|(?:of|for) .*'(?:float|int)' and 'tuple'|(?:of|for) .*'tuple' and '(?:float|int)'"
         r"|real number, not '?tuple|passed to tuple\.__format__|type tuple doesn't define __round__"
         r"|bad operand type for abs\(\): 'tuple'",
         "A tuple, which holds several values, is used where a number is required.",
-        _NO_COMMA,
-    ),
-)
+        _NO_COMMA),
+)  # fmt: skip
 
 
 # Messages and their fields.
@@ -871,53 +766,34 @@ def _value_published(wanted: str, got: str) -> Meaning:
 
 _FIELD_RULES: tuple[Rule, ...] = (
     _field_of_another_type,
-    Row(
-        "wrong-values",
-        r"The '(\w+)' field must be an? [\w ]+ in \[",
+    Row("wrong-values", r"The '(\w+)' field must be an? [\w ]+ in \[",
         "The number is too large for the field {1}.",
-        "Print the number before that line. Does it grow from one call to the next?",
-    ),
+        "Print the number before that line. Does it grow from one call to the next?"),
     _field_of_another_name,
-    Row(
-        "field-without-name",
+    Row("field-without-name",
         rf"^TypeError: ({_MESSAGE})\.__init__\(\) takes 1 positional argument but \d",
         "{1}(...) was given a value without the name of its field.",
-        f"A message can have many fields, so pass each value with the name of its field. {_SHOW}",
-    ),
-    Row(
-        "no-publisher",
-        rf"'({_MESSAGE})' object has no attribute 'publish'",
+        f"A message can have many fields, so pass each value with the name of its field. {_SHOW}"),
+    Row("no-publisher", rf"'({_MESSAGE})' object has no attribute 'publish'",
         "A message of type {1} is used instead of a publisher.",
-        "A message only carries a value. Which method of a node creates a publisher?",
-    ),
-    Row(
-        "wrong-field",
-        rf"'({_MESSAGE})' object has no attribute '((?!__)\w+)'",
+        "A message only carries a value. Which method of a node creates a publisher?"),
+    Row("wrong-field", rf"'({_MESSAGE})' object has no attribute '((?!__)\w+)'",
         "A {1} has no field called {2}.",
-        _SHOW,
-    ),
-    Row(
-        "class-changed",
-        r"'(\w+)' object attribute '(\w+)' is read-only",
+        _SHOW),
+    Row("class-changed", r"'(\w+)' object attribute '(\w+)' is read-only",
         "An earlier line has assigned a value to {2} of the class {1} itself, which broke the "
         "class for all messages. The class has been restored.",
-        "Look for a {1} without parentheses after it, then run your cells again.",
-    ),
+        "Look for a {1} without parentheses after it, then run your cells again."),
     _published,
-    Row(
-        "number-published",
-        r"Publisher\.publish\(\) (takes|missing|got)",
+    Row("number-published", r"Publisher\.publish\(\) (takes|missing|got)",
         "publish takes exactly one argument, a message, but was called with something else.",
         "Create the message first, assign the value to its field, and pass only the message.",
-        when=lambda fault, _: not called_by_ros(fault),
-    ),
-    Row(
-        "message-for-value",
+        when=lambda fault, _: not called_by_ros(fault)),
+    Row("message-for-value",
         rf"^TypeError: (?!.* is not callable).*?(?:['\"]|not |type |to )({_MESSAGE})\b",
         "A whole message of type {1} is used instead of the value in its field.",
-        f"{_ENVELOPE} {_SHOW}",
-    ),
-)
+        f"{_ENVELOPE} {_SHOW}"),
+)  # fmt: skip
 
 
 # Names that Python does not know: of variables, methods, attributes, modules.
@@ -1048,47 +924,34 @@ def _not_importable(fault: Fault) -> Meaning | None:
 _NAME_RULES: tuple[Rule, ...] = (
     _not_assigned_yet,
     _name_error,
-    Row(
-        "brackets-missing",
+    Row("brackets-missing",
         r"'(function|method|builtin_function_or_method)' object has no attribute '(\w+)'",
         "This line looks for {2} on a method itself, instead of on the value that the method "
         "returns.",
-        "A method runs only if parentheses follow its name. Which method on this line has none?",
-    ),
-    Row(
-        "name-taken",
+        "A method runs only if parentheses follow its name. Which method on this line has none?"),
+    Row("name-taken",
         r"property '(\w+)' of '\w+' object has no setter|can't set attribute '(\w+)'"
         r"|^AttributeError: (\w+) cannot be modified after node creation",
         "Every node already has an attribute called {1}, which cannot be replaced.",
-        "Choose another name for your own attribute; an underscore at its end is enough.",
-    ),
-    Row(
-        "name-taken",
-        r"^TypeError: 'method' object is not iterable$",
+        "Choose another name for your own attribute; an underscore at its end is enough."),
+    # Here the session failed, and not a callback.
+    Row("name-taken", r"^TypeError: 'method' object is not iterable$",
         "A method of the class has a name that every node already uses, such as clients, "
         "services or timers.",
         "Give the method another name, in its def line and wherever you pass it.",
-        when=lambda fault, _: (
-            fault.callback in ("add", "run")
-        ),  # the session failed, not a callback
-    ),
-    Row(
-        "name-taken",
+        when=lambda fault, _: fault.callback in ("add", "run")),
+    Row("name-taken",
         r"'method' object does not support the context manager protocol|: __enter__$",
         "A method of the class is called handle, but every node already has an attribute of that "
         "name.",
         "Give the method another name, in its def line and wherever you pass it.",
-        r"\bsuper\(\)\.__init__\(",
-    ),
-    Row(
-        "none-used",
-        r"'NoneType' object has no attribute '(\w+)'",
+        r"\bsuper\(\)\.__init__\("),
+    Row("none-used", r"'NoneType' object has no attribute '(\w+)'",
         "The value before .{1} on this line is None.",
-        "Where does this value come from? A function without return gives None.",
-    ),
+        "Where does this value come from? A function without return gives None."),
     _no_such_attribute,
     _not_importable,
-)
+)  # fmt: skip
 
 
 # Values of a kind that Python cannot work with at that place.
@@ -1106,106 +969,68 @@ _TEXT_AND_NUMBER = "|".join(
 )
 
 _VALUE_RULES: tuple[Rule, ...] = (
-    Row(
-        "text-and-number",
-        _TEXT_AND_NUMBER,
+    Row("text-and-number", _TEXT_AND_NUMBER,
         "This line combines a string and a number, but Python needs two values of the same kind.",
-        "An f-string inserts a number into a string. A number in quotes is a string.",
-    ),
-    Row(
-        "none-used",
+        "An f-string inserts a number into a string. A number in quotes is a string."),
+    Row("none-used",
         r"supported .*'NoneType'|real number, not '?NoneType"
         r"|'NoneType' object cannot be interpreted as an integer",
         "A value on this line is None, but a number is required.",
         "Where does this value come from, and is it set before the first message arrives? A "
         "function without return gives None, and so does a parameter that was declared without a "
-        "default value.",
-    ),
-    Row(
-        "none-used",
+        "default value."),
+    Row("none-used",
         r"object of type 'NoneType' has no len\(\)"
         r"|'NoneType' object is not (?:iterable|subscriptable)",
         "This line needs a list, but the value is None.",
         "Where does this value come from? A function without return gives None, and so do append "
         "and sort, which change the list itself.",
-        r"\bself\.\w+",
-    ),
-    Row(
-        "format-code",
-        r"Unknown format code '(.)' for object of type '(\w+)'",
+        r"\bself\.\w+"),
+    Row("format-code", r"Unknown format code '(.)' for object of type '(\w+)'",
         "The format code {1} after the colon in the braces does not match the value, which is of "
         "type {2}.",
-        "f formats a float, with .2f to two decimals; d is for whole numbers, and s for strings.",
-    ),
-    Row(
-        "logged-no-text",
+        "f formats a float, with .2f to two decimals; d is for whole numbers, and s for strings."),
+    Row("logged-no-text",
         r"rclpy_logging_rcutils_log\(\): incompatible function arguments"
         r"|Logger\.\w+\(\) (takes|missing|got) ",
         "The logger takes one string, but was given something else.",
         "Unlike print, the logger does not join several values. An f-string combines them into "
-        "one string.",
-    ),
-    Row(
-        "wrong-argument",
+        "one string."),
+    Row("wrong-argument",
         r"^TypeError: Node\.((?!__init__)\w+)\(\) takes 1 positional argument but",
         "{1} takes no arguments, but was given one.",
-        "Leave its parentheses empty, and use the value that it returns.",
-    ),
-    Row(
-        "not-callable",
-        r"^TypeError: '(\w+)' object is not callable",
+        "Leave its parentheses empty, and use the value that it returns."),
+    Row("not-callable", r"^TypeError: '(\w+)' object is not callable",
         "Parentheses follow an object of type {1}, which is not a function.",
         "Which name on this line is before the parentheses? A function of a module or an object "
         "comes after a dot; a value takes no parentheses.",
-        when=lambda fault, _: not called_by_ros(fault),
-    ),
-    Row(
-        "division-by-zero",
-        r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
+        when=lambda fault, _: not called_by_ros(fault)),
+    Row("division-by-zero", r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
         "This line divides by zero, for example by the length of a list that is still empty.",
-        "How many readings are there at the first call?",
-    ),
-    Row(
-        "index-error",
-        r"^IndexError: .*from (an )?empty",
+        "How many readings are there at the first call?"),
+    Row("index-error", r"^IndexError: .*from (an )?empty",
         "The list is empty, so it has no element to take.",
-        "When does this line run while the list is still empty? Check that first.",
-    ),
-    Row(
-        "index-error",
-        r"^IndexError: .*index out of range",
+        "When does this line run while the list is still empty? Check that first."),
+    Row("index-error", r"^IndexError: .*index out of range",
         "The list has no such index: it is shorter than this line expects.",
         "How long is the list at the first call? Indexes begin at 0, so the last one is the "
-        "length minus one.",
-    ),
-    Row(
-        "self-missing",
-        r"(\w+)\(\) takes 0 positional arguments but (\d)",
+        "length minus one."),
+    Row("self-missing", r"(\w+)\(\) takes 0 positional arguments but (\d)",
         f"{{1}} {_NO_SELF}",
-        _OTHER_DEFS,
-    ),
-    Row(
-        "argument-missing",
-        r"(\w+)\(\) missing \d required positional arguments?: (.+)",
+        _OTHER_DEFS),
+    Row("argument-missing", r"(\w+)\(\) missing \d required positional arguments?: (.+)",
         "{1} requires {2}, but is called without arguments.",
         "Look at the line that begins with def {1}: which parameters does it have besides self?",
-        when=lambda fault, found: f"self.{found[1]}()" in fault.code,
-    ),
-    Row(
-        "constructor-parameters",
-        r"__init__\(\) missing \d .*?arguments?: (.+)",
+        when=lambda fault, found: f"self.{found[1]}()" in fault.code),
+    Row("constructor-parameters", r"__init__\(\) missing \d .*?arguments?: (.+)",
         "The constructor requires {1}, but the class is called without arguments.",
         "A session calls your class without arguments, so the constructor's only parameter "
         "should be self.",
-        when=lambda fault, _: not fault.line,
-    ),
-    Row(
-        "calls-itself",
-        r"^RecursionError: ",
+        when=lambda fault, _: not fault.line),
+    Row("calls-itself", r"^RecursionError: ",
         "A function calls itself endlessly, until Python stops it.",
-        "Use a timer for anything that happens again later; a callback only needs to return.",
-    ),
-)
+        "Use a timer for anything that happens again later; a callback only needs to return."),
+)  # fmt: skip
 
 _RULES: tuple[Rule, ...] = (
     *_COMMA_RULES,

@@ -355,70 +355,48 @@ def _nearest_module(module: str, folder: Path) -> str:
 
 _FORM = "The entry point on line {entry.line} of {entry.file} "
 _NAMED = "The entry point {entry.executable} in {entry.file} names "
-BROKEN = Diagnosis(
-    "syntax-error",
+BROKEN = Diagnosis("syntax-error",
     "Python cannot read {path}: there is a syntax error on line {line} or just before it.",
     "colcon copies modules without running them, so the build does not detect the error. Correct "
-    "that line and build again.",
-)
+    "that line and build again.")  # fmt: skip
 #: What is said about each kind of flaw of an entry point; `{wrong}` is the part that is wrong, and
 #: `{right}` what was probably meant.
 FLAWS = {
-    "missing-comma": Diagnosis(
-        "comma-missing",
+    "missing-comma": Diagnosis("comma-missing",
         "A comma is missing in {entry.file}, between the entry point on line {entry.line} and "
         "the next one: without it, Python joins two adjacent strings into one.",
-        "Put a comma at the end of every entry point.",
-    ),
-    "no-equals": Diagnosis(
-        "entry-point-form",
+        "Put a comma at the end of every entry point."),
+    "no-equals": Diagnosis("entry-point-form",
         f"{_FORM}has no `=`.",
-        "Write it as in  'name = package.module:main'.",
-    ),
-    "two-equals": Diagnosis(
-        "entry-point-form",
+        "Write it as in  'name = package.module:main'."),
+    "two-equals": Diagnosis("entry-point-form",
         f"{_FORM}has more than one `=`.",
-        "Write it with a single `=`, as in  'name = package.module:main'.",
-    ),
-    "bad-name": Diagnosis(
-        "entry-point-form",
+        "Write it with a single `=`, as in  'name = package.module:main'."),
+    "bad-name": Diagnosis("entry-point-form",
         f"{_FORM}has no usable name before the `=`.",
-        "Write the name there that you want to type after the package in `ros2 run`.",
-    ),
-    "slash": Diagnosis(
-        "slash-in-module",
+        "Write the name there that you want to type after the package in `ros2 run`."),
+    "slash": Diagnosis("slash-in-module",
         f"{_FORM}names its module with a `/`, like a path.",
-        "The parts of a Python module's name are separated by dots: {right}",
-    ),
-    "suffix": Diagnosis(
-        "entry-point-target",
+        "The parts of a Python module's name are separated by dots: {right}"),
+    "suffix": Diagnosis("entry-point-target",
         f"{_NAMED}a file, {{wrong}}.",
-        "A module's name does not end in `.py`: write {right}:{function}",
-    ),
-    "no-function-part": Diagnosis(
-        "entry-point-target",
+        "A module's name does not end in `.py`: write {right}:{function}"),
+    "no-function-part": Diagnosis("entry-point-target",
         f"{_NAMED}a module, but no function in it.",
-        "Add the function after a colon: {wrong}:main",
-    ),
-    "called": Diagnosis(
-        "entry-point-form",
+        "Add the function after a colon: {wrong}:main"),
+    "called": Diagnosis("entry-point-form",
         "The entry point {entry.executable} in {entry.file} ends with {wrong}: an entry point "
         "names a function without calling it.",
-        "Leave out the parentheses: write {right}",
-    ),
-    "no-module": Diagnosis(
-        "entry-point-target",
+        "Leave out the parentheses: write {right}"),
+    "no-module": Diagnosis("entry-point-target",
         "The entry point {entry.executable} on line {entry.line} of {entry.file} names the "
         "module {wrong}, which does not exist.",
-        "Did you mean {right}?",
-    ),
+        "Did you mean {right}?"),
     "syntax-error": BROKEN,
-    "no-function": Diagnosis(
-        "entry-point-target",
+    "no-function": Diagnosis("entry-point-target",
         f"{_NAMED}the function {{wrong}}, which {{entry.module}} does not define.",
-        "Did you mean {right}?",
-    ),
-}
+        "Did you mean {right}?"),
+}  # fmt: skip
 #: What to try if nothing is like what was written.
 _NOTHING_NEAR = {
     "no-module": "Compare it with the names of your files: the package, a dot, and the file "

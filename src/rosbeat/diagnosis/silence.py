@@ -390,6 +390,7 @@ def _nobody(sides: Sides, scene: Scene) -> Finding:
 
 def _no_publisher(sides: Sides, scene: Scene) -> Finding:
     listeners = sides.subscriptions
+    published = listing(_with_publishers(scene.graph))
     start = f"tart the node that publishes{_how_to_start(scene)}, and compare the topic name in"
     # Others listen to the near one, so it may well be another topic: a question, and no verdict.
     near = nearest(sides.topic, _with_publishers(scene.graph))
@@ -403,7 +404,7 @@ def _no_publisher(sides: Sides, scene: Scene) -> Finding:
         "no-publisher",
         f"no node publishes on {sides.topic}",
         f"{nodes_of(listeners)} {verb(listeners, 'subscribes', 'subscribe')} to it, but no node "
-        f"publishes{_before(scene)}. {_published_topics(scene.graph)}",
+        f"publishes{_before(scene)}. Topics with a publisher: {published or 'none'}.",
         f"{asked}{start} its `create_publisher`.",
         [_near_miss(near, sides.topic)] if near else [],
     )
@@ -416,10 +417,6 @@ def _before(scene: Scene) -> str:
     last = scene.former[-1]
     who = "another process" if last.node == "?" else last.node
     return f" now; {who} published until {_at(last.last_ns)}, and is no longer running"
-
-
-def _published_topics(graph: GraphSnapshot) -> str:
-    return f"Topics with a publisher: {listing(_with_publishers(graph)) or 'none'}."
 
 
 def _with_publishers(graph: GraphSnapshot) -> list[str]:
@@ -485,18 +482,14 @@ def nodes(sides: Sides, scene: Scene) -> Iterator[Finding]:
 def _conditions(ends: tuple[Endpoint, ...], scene: Scene) -> list[Condition]:
     """Return those of the nodes on the topic, and of whoever holds up all others."""
     here = {end.node for end in ends}
-    speaks = {end.node for end in ends if end.kind == "publisher" and _is_heard(end, scene)}
+    # A program may well publish in a loop of its own and never spin.
+    speaks = {end.node for end in ends if end.kind == "publisher" and scene.beat(end).count > 0}
     return [
         one
         for one in scene.conditions
         if (one.state == BLOCKED and not scene.virtual)
         or (one.node in here and not (one.state == SILENT and one.node in speaks))
     ]
-
-
-def _is_heard(end: Endpoint, scene: Scene) -> bool:
-    # A program may well publish in a loop of its own and never spin.
-    return scene.beat(end).count > 0
 
 
 @dataclass(frozen=True)
@@ -512,48 +505,33 @@ class _Cause:
 
 _NOT_RUN = "{node} is not spun"
 _CONDITIONS = {
-    ENDED: _Cause(
-        "node-ended",
-        "{node} has ended",
+    ENDED: _Cause("node-ended", "{node} has ended",
         "{node} called rclpy.shutdown(), which ended the node.",
         "Take that call out of the callback, and add the node again.",
-        ("has ended",),
-    ),
-    BLOCKED: _Cause(
-        "callback-blocks",
-        "a callback of {node} does not return",
+        ("has ended",)),
+    BLOCKED: _Cause("callback-blocks", "a callback of {node} does not return",
         "{callback} has started but not returned. Until it returns, no other callback of {node} "
         "runs{others}.",
         "A callback does its work once and returns: no endless loop, no `time.sleep`, no waiting "
         "for a response. Use a timer for anything that happens repeatedly.",
-        ("callback does", "not return"),
-    ),
-    PAUSED: _Cause(
-        "not-spun",
-        _NOT_RUN,
+        ("callback does", "not return")),
+    PAUSED: _Cause("not-spun", _NOT_RUN,
         "{node} is paused: messages wait in its queues, and its timers do not fire.",
         'Resume the node with `ros.resume("{name}")`.',
-        ("paused",),
-    ),
-    NOT_ADDED: _Cause(
-        "not-spun",
-        _NOT_RUN,
+        ("paused",)),
+    NOT_ADDED: _Cause("not-spun", _NOT_RUN,
         "{node} was created, but never added to the session: it is in the graph, but none of its "
         "callbacks is ever called.",
         "Add the node with `ros.add(...)`. In a program, call `rclpy.spin(node)`.",
-        ("not spun",),
-    ),
-    SILENT: _Cause(
-        "not-spun",
-        "{node} does not answer",
+        ("not spun",)),
+    SILENT: _Cause("not-spun", "{node} does not answer",
         "{node} is in the graph, but did not respond to a service that every spinning node "
         "offers. Its callbacks do not run: either the node is not spun, or one of its callbacks "
         "does not return.",
         "Look for `rclpy.spin(node)` in the node's `main`, then for an endless loop or "
         "`time.sleep` in a callback.",
-        ("does not", "answer"),
-    ),
-}
+        ("does not", "answer")),
+}  # fmt: skip
 
 
 def _of(condition: Condition, scene: Scene) -> Finding:

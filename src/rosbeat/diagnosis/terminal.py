@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from glob import escape
-from itertools import takewhile
+from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
 from rosbeat.diagnosis.mistakes import Diagnosis
@@ -151,26 +151,25 @@ def split_commands(text: str) -> list[tuple[str, ...]]:
     Args:
         text: What was typed; several lines, or several commands in a line, are fine.
     """
-    found: list[tuple[str, ...]] = []
-    for line in text.replace("\\\n", " ").splitlines():
-        try:
-            lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
-            lexer.whitespace_split = True
-            words = list(lexer)
-        except ValueError:  # a quote is not closed
-            words = line.split()
-        found += _split(words)
-    return found
+    lines = text.replace("\\\n", " ").splitlines()
+    return [tuple(_from_the_program(one)) for line in lines for one in commands_in(line)]
 
 
-def _split(words: list[str]) -> list[tuple[str, ...]]:
-    found: list[list[str]] = [[]]
-    for word in words:
-        if word in _SEPARATORS:
-            found.append([])
-        else:
-            found[-1].append(word)
-    return [tuple(_from_the_program(one)) for one in found if one]
+def commands_in(line: str, escape: str = "\\") -> list[list[str]]:
+    """Return the words of each command in a line.
+
+    Args:
+        line: What was typed.
+        escape: What takes its meaning from the next sign; if it is empty, a backslash stays.
+    """
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
+    lexer.whitespace_split, lexer.escape = True, escape
+    try:
+        words = list(lexer)
+    except ValueError:  # a quote is not closed
+        words = line.split()
+    parts = groupby(words, _SEPARATORS.__contains__)
+    return [list(one) for is_separator, one in parts if not is_separator]
 
 
 def _from_the_program(words: list[str]) -> list[str]:
@@ -503,62 +502,34 @@ def _absent(what: str, hint: str) -> Diagnosis:
 
 
 _CD_RULES = (
-    Row(
-        "path-separator",
-        "cd",
-        rf"{_BASH}cd: .+: {_NO_FILE}",
+    Row("path-separator", "cd", rf"{_BASH}cd: .+: {_NO_FILE}",
         r"The path contains a `\`, which bash removes.",
         "On Linux, `/` separates the parts of a path.",
-        _typed_a_backslash,
-    ),
+        _typed_a_backslash),
     Rule("cd", rf"{_BASH}cd: (.+): {_NO_FILE}", _cd_failed),
     Rule("cd", rf"{_BASH}cd: too many arguments", _cd_with_a_blank_too_many),
-    Row(
-        "not-a-folder",
-        "cd",
-        rf"{_BASH}cd: *(\S.*?) *: Not a directory",
+    Row("not-a-folder", "cd", rf"{_BASH}cd: *(\S.*?) *: Not a directory",
         "{1} is a file, but `cd` needs a folder.",
-        "`cat` shows the content of a file.",
-    ),
-)
+        "`cat` shows the content of a file."),
+)  # fmt: skip
 _MKDIR_RULES = (
-    Row(
-        "folder-exists",
-        "mkdir",
-        rf"{_MKDIR}([^']+)': File exists",
+    Row("folder-exists", "mkdir", rf"{_MKDIR}([^']+)': File exists",
         "{1} already exists, so `mkdir` changed nothing.",
-        "With -p, `mkdir` does not complain about an existing folder.",
-    ),
+        "With -p, `mkdir` does not complain about an existing folder."),
     Rule("mkdir", rf"{_MKDIR}([^']+)': (?:No such|Permission den)", _mkdir_at_the_top),
-    Row(
-        "parents-missing",
-        "mkdir",
-        rf"{_MKDIR}(?:[^']*/)?([^'/]+)/*': No such file",
+    Row("parents-missing", "mkdir", rf"{_MKDIR}(?:[^']*/)?([^'/]+)/*': No such file",
         "The parent folder of {1} does not exist.",
-        "With -p, `mkdir` also creates missing parent folders.",
-    ),
-    Row(
-        "option-misspelled",
-        "mkdir",
-        r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'P'",
+        "With -p, `mkdir` also creates missing parent folders."),
+    Row("option-misspelled", "mkdir", r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'P'",
         "`mkdir` has no option -P, so it created nothing.",
-        "The option is a lower-case letter: -p",
-    ),
-    Row(
-        "option-misspelled",
-        "mkdir",
-        r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'([^']+)'",
+        "The option is a lower-case letter: -p"),
+    Row("option-misspelled", "mkdir", r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'([^']+)'",
         "`mkdir` has no option -{1}, so it created nothing.",
-        "`mkdir --help` lists its options.",
-    ),
-    Row(
-        "word-missing",
-        "mkdir",
-        r"mkdir: missing operand",
+        "`mkdir --help` lists its options."),
+    Row("word-missing", "mkdir", r"mkdir: missing operand",
         "`mkdir` was called without the name of a folder.",
-        "Write the folder's name or path after `mkdir`, separated by a space.",
-    ),
-)
+        "Write the folder's name or path after `mkdir`, separated by a space."),
+)  # fmt: skip
 
 
 # Programs and files on the command line.
@@ -621,108 +592,61 @@ def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
 
 
 _COMMAND_RULES = (
-    Row(
-        "dot-slash-missing",
-        "{1}",
-        _not_found(),
+    Row("dot-slash-missing", "{1}", _not_found(),
         "{1} is in this folder, but the shell does not search the current folder for programs:",
         "write ./{1}",
-        lambda _, call, found: (call.place / found[1]).is_file(),
-    ),
-    Row(
-        "prompt-typed",
-        "{1}",
-        _not_found("[$#%]"),
+        lambda _, call, found: (call.place / found[1]).is_file()),
+    Row("prompt-typed", "{1}", _not_found("[$#%]"),
         "`{1}` is the terminal's prompt, not a command.",
-        "Type only the text after the prompt.",
-    ),
-    Row(
-        "not-installed",
-        "{1}",
-        _not_found("nano|gedit|vim|vi|code|emacs"),
+        "Type only the text after the prompt."),
+    Row("not-installed", "{1}", _not_found("nano|gedit|vim|vi|code|emacs"),
         "The editor {1} is not installed here.",
-        "Double-click the file in JupyterLab's file browser, or write it with a `%%save` cell.",
-    ),
-    Row(
-        "environment-inactive",
-        "{1}",
-        _not_found("ros2|colcon"),
+        "Double-click the file in JupyterLab's file browser, or write it with a `%%save` cell."),
+    Row("environment-inactive", "{1}", _not_found("ros2|colcon"),
         "This terminal cannot find {1}: the course's environment is not active in it.",
-        "Open a terminal from the course, or run `./environment/course shell` first.",
-    ),
-    Row(
-        "ros-1-command",
-        "{1}",
+        "Open a terminal from the course, or run `./environment/course shell` first."),
+    Row("ros-1-command", "{1}",
         _not_found("roscore|rosrun|rosnode|rostopic|roslaunch|catkin_make"),
         "`{1}` is not installed here:",
-        "it belongs to ROS 1, and ROS 2 does not have it.",
-    ),
-    Row(
-        "not-installed",
-        "{1}",
-        _not_found(_NOT_HERE),
+        "it belongs to ROS 1, and ROS 2 does not have it."),
+    Row("not-installed", "{1}", _not_found(_NOT_HERE),
         "The program `{1}` is not installed here.",
-        "The course does not need it.",
-    ),
+        "The course does not need it."),
     Rule("{1}", _not_found(), _misspelt),
-)
+)  # fmt: skip
 _FILE_RULES: Rules = (
     Rule("chmod", r"^chmod: cannot access '([^']+)': No such file", _no_such_file),
-    Row(
-        "word-misspelled",
-        "chmod",
-        r"^chmod: invalid mode: ",
+    Row("word-misspelled", "chmod", r"^chmod: invalid mode: ",
         "`chmod` does not understand its first argument.",
-        "A plus sign adds a permission: `+x` adds the permission to execute.",
-    ),
-    Row(
-        "word-missing",
-        "chmod",
-        r"chmod: missing operand",
+        "A plus sign adds a permission: `+x` adds the permission to execute."),
+    Row("word-missing", "chmod", r"chmod: missing operand",
         "`chmod` needs two arguments: the change and the file.",
-        "For example:  chmod +x temperature_publisher.py",
-    ),
-    Row(
-        "is-a-folder",
-        "rm",
-        r"^rm: cannot remove '([^']+)': Is a directory",
+        "For example:  chmod +x temperature_publisher.py"),
+    Row("is-a-folder", "rm", r"^rm: cannot remove '([^']+)': Is a directory",
         "{1} is a folder, but without an option `rm` removes only files.",
         "`rm -r` removes a folder with all its content, and there is no trash to restore it "
-        "from: check the line before you run it.",
-    ),
+        "from: check the line before you run it."),
     # Python shows the whole path, also of a name that was typed alone.
     Rule(r"python[\d.]*", r"can't open file '(?:[^']*/)?([^'/]+)': \[Errno 2\]", _no_such_file),
-    Row(
-        "ros-elsewhere",
-        _SOURCE,
-        rf"{_BASH}/opt/ros/\S+: {_NO_FILE}",
+    Row("ros-elsewhere", _SOURCE, rf"{_BASH}/opt/ros/\S+: {_NO_FILE}",
         "That file belongs to a ROS installation, which this course does not use.",
-        "Every terminal of this course already has ROS, so leave the line out.",
-    ),
-    Row(
-        "not-built",
-        _SOURCE,
-        rf"{_BASH}({_SETUP}): {_NO_FILE}",
+        "Every terminal of this course already has ROS, so leave the line out."),
+    Row("not-built", _SOURCE, rf"{_BASH}({_SETUP}): {_NO_FILE}",
         "{1} does not exist yet: `colcon build` creates it.",
         "Build in the workspace first, then source.",
-        lambda seen, *_: not (seen.workspace / "install" / "setup.bash").is_file(),
-    ),
+        lambda seen, *_: not (seen.workspace / "install" / "setup.bash").is_file()),
     *(
-        Row(
-            "wrong-folder",
-            _SOURCE,
-            rf"{_BASH}({start}{_SETUP}): {_NO_FILE}",
+        Row("wrong-folder", _SOURCE, rf"{_BASH}({start}{_SETUP}): {_NO_FILE}",
             f"{{1}} {where}.",
             f"That file is in your workspace: go there first, with  {_way_to()}",
-            lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file(),
-        )
+            lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file())
         for start, where in (
             ("(?=/)", "does not exist"),
             ("", "is not in the current folder"),
         )
     ),
     Rule(r"\S*{2}", rf"{_BASH}((?:\S*/)?([^\s/]+\.py)): Permission denied", _not_executable),
-)
+)  # fmt: skip
 
 
 # Words that `colcon` or `ros2` do not know.
@@ -778,25 +702,17 @@ _WORD_RULES = (
         _unknown_word,
     ),
     # An option counted as one of the two names, or there was nothing.
-    Row(
-        "word-missing",
-        _RUN,
-        r"^ros2.*: error: (unrecognized|the following) arguments",
+    Row("word-missing", _RUN, r"^ros2.*: error: (unrecognized|the following) arguments",
         "`ros2 run` was called with fewer than two names.",
         "`ros2 run` takes two names: the package and the executable.",
-        lambda _, call, __: len(_names_to_run(call)) < 2,
-    ),
+        lambda _, call, __: len(_names_to_run(call)) < 2),
     Rule("{1}", r"^(colcon|ros2).*: error: unrecognized arguments: (.*\S.*)$", _unknown_option),
-    Row(
-        "word-missing",
-        "ros2",
-        rf"^ros2 pkg create: {_REQUIRED}",
+    Row("word-missing", "ros2", rf"^ros2 pkg create: {_REQUIRED}",
         "The package's name is missing, or an option has consumed it: `--dependencies` takes "
         "every word that follows it.",
-        "Write the package's name first.",
-    ),
+        "Write the package's name first."),
     Rule("ros2", rf"^(ros2 .*): {_REQUIRED}(.+)$", _missing_word),
-)
+)  # fmt: skip
 
 
 # `ros2 pkg create`.
@@ -856,60 +772,36 @@ def _made_elsewhere(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
 
 
 _CREATE_RULES = (
-    Row(
-        "package-exists",
-        _CREATE,
-        r"The directory already exists: (?:\S*/)?([^\s/]*)",
+    Row("package-exists", _CREATE, r"The directory already exists: (?:\S*/)?([^\s/]*)",
         "A folder {1} already exists, probably from the first time you ran this command.",
         "Nothing was changed. If that folder is your package, continue with it; if not, rename "
-        "it first.",
-    ),
-    Row(
-        "build-type",
-        _CREATE,
-        r"is left out here",
+        "it first."),
+    Row("build-type", _CREATE, r"is left out here",
         "Without `--build-type ament_python`, `ros2 pkg create` creates a C++ package, but your "
         "nodes are in Python.",
         "Add that option; the rest of the command stays the same.",
-        _no_build_type,
-    ),
+        _no_build_type),
     Rule(_CREATE, "", _made_for_cpp),
-    Row(
-        "build-type",
-        _CREATE,
-        r"is left out here",
+    Row("build-type", _CREATE, r"is left out here",
         "The command asks for a build type for C++, but your nodes are in Python.",
-        "Write ament_python after --build-type; the rest of the command stays the same.",
-    ),
-    Row(
-        "package-name",
-        _CREATE,
-        r"cannot be the name of a package(?! to depend on)",
+        "Write ament_python after --build-type; the rest of the command stays the same."),
+    Row("package-name", _CREATE, r"cannot be the name of a package(?! to depend on)",
         "A Python package is imported by its name, so the name follows Python's rules:",
-        "lower-case letters, digits and `_`, beginning with a letter.",
-    ),
-    Row(
-        "wrong-folder",
-        _CREATE,
-        re.escape(_INSIDE),
+        "lower-case letters, digits and `_`, beginning with a letter."),
+    Row("wrong-folder", _CREATE, re.escape(_INSIDE),
         "This terminal's current folder is inside a package, and a package cannot contain "
         "another one.",
-        "Packages belong in the src folder of the workspace: go there first.",
-    ),
+        "Packages belong in the src folder of the workspace: go there first."),
     Rule(_CREATE, "", _made_elsewhere),
-)
+)  # fmt: skip
 #: These come before the rules about words, which take the same outputs for misspelt options.
 _OPTION_RULES = (
     Rule(_CREATE, r"^ros2.*: error: unrecognized arguments: ([^\s-].*)$", _options_missing),
-    Row(
-        "commas-between-names",
-        _CREATE,
-        "",
+    Row("commas-between-names", _CREATE, "",
         "There are commas after --dependencies.",
         "Separate the names with spaces, not with commas.",
-        lambda seen, call, _: seen.code and "," in "".join(call.after("--dependencies")),
-    ),
-)
+        lambda seen, call, _: seen.code and "," in "".join(call.after("--dependencies"))),
+)  # fmt: skip
 
 
 # What is wrong with an entry point, and with a package.
@@ -931,63 +823,47 @@ def _is_for_cpp(package: Package, _: str = "") -> bool:
 _STILL = (
     "Nothing new was installed, so `ros2 run` still starts the previous build, if there is one."
 )
-_FOR_CPP = PackageRow(
-    "build-type",
+_FOR_CPP = PackageRow("build-type",
     _is_for_cpp,
     "{name} is a C++ package: the build type in its package.xml is {manifest.build_type}.",
     "`--build-type ament_python` creates a Python package. Rename the folder {name} or move it "
-    "away, then create the package again with that option.",
-)
-_NOT_INSTALLED = PackageRow(
-    "packages-missing",
+    "away, then create the package again with that option.")  # fmt: skip
+_NOT_INSTALLED = PackageRow("packages-missing",
     lambda package, _: not package.setup.installs(package.name),
     "The setup.py of {name} does not install the folder {name} with its modules: its `packages` "
     "argument leaves that folder out.",
-    "Write packages=find_packages(exclude=['test']), and build again.",
-)
+    "Write packages=find_packages(exclude=['test']), and build again.")  # fmt: skip
 #: Files that `ros2 pkg create` made and that are gone (27).
 _PARTS = (
-    PackageRow(
-        "marker-missing",
+    PackageRow("marker-missing",
         lambda package, _: not (package.folder / "setup.py").is_file(),
         "The package {name} has no setup.py, so colcon cannot build it.",
-        "Write that file again, as page 05 shows.",
-    ),
-    PackageRow(
-        "marker-missing",
+        "Write that file again, as page 05 shows."),
+    PackageRow("marker-missing",
         lambda package, _: (package.folder / package.name).is_dir() and not package.has_init,
         "The file {name}/__init__.py is missing from the package {name}, so Python does not "
         "treat that folder as a package, and its modules are not installed.",
-        "Create an empty one: touch src/{name}/{name}/__init__.py",
-    ),
-    PackageRow(
-        "marker-missing",
+        "Create an empty one: touch src/{name}/{name}/__init__.py"),
+    PackageRow("marker-missing",
         lambda package, _: not package.scripts_are_found,
         "The setup.cfg of the package {name} is missing or changed. It installs the executables "
         "in lib/{name}, the only folder that `ros2 run` searches.",
-        "That file needs the two lines `[install]` and `install_scripts=$base/lib/{name}`.",
-    ),
-)
-_NO_MARKER = PackageRow(
-    "marker-missing",
+        "That file needs the two lines `[install]` and `install_scripts=$base/lib/{name}`."),
+)  # fmt: skip
+_NO_MARKER = PackageRow("marker-missing",
     lambda package, _: not package.has_marker,
     "The file resource/{name} is missing from the package {name}. ROS finds packages by this "
     "empty marker file.",
-    "Create it again in the package's folder: touch resource/{name}",
-)
-_SETUP_UNREADABLE = PackageRow(
-    "syntax-error",
+    "Create it again in the package's folder: touch resource/{name}")  # fmt: skip
+_SETUP_UNREADABLE = PackageRow("syntax-error",
     lambda package, _: package.setup.line,
     "Python cannot read the setup.py of {name}: {setup.problem}, on line {setup.line} or just "
     "before it.",
-    f"Look for a missing quote, comma or bracket there. {_STILL}",
-)
-_SETUP_NOT_CALLED = PackageRow(
-    "no-setup-call",
+    f"Look for a missing quote, comma or bracket there. {_STILL}")  # fmt: skip
+_SETUP_NOT_CALLED = PackageRow("no-setup-call",
     lambda package, _: package.setup.problem == NO_CALL,
     "Python can read the setup.py of {name}, but {setup.problem}.",
-    f"Write the call without indentation: setup( ... ). {_STILL}",
-)
+    f"Write the call without indentation: setup( ... ). {_STILL}")  # fmt: skip
 
 
 # `colcon build`, also what it says nothing about.
@@ -1047,41 +923,26 @@ def _is_python(_: Situation, package: Package) -> bool:
 
 
 _BUILD_RULES = (
-    Row(
-        "wrong-folder",
-        _BUILD,
-        "",
+    Row("wrong-folder", _BUILD, "",
         "You ran the build inside the folder {here}, so build, install and log are there now "
         "instead of in the workspace.",
         f"Go to the workspace with `{_way_to()}` and build there; "
         "you may remove the three folders from {here}.",
-        _built_in_src,
-    ),
-    Row(
-        "option-misspelled",
-        "colcon",
+        _built_in_src),
+    Row("option-misspelled", "colcon",
         r"ignoring unknown package '(symlink[-_]install|packages[-_]select)'",
         "colcon treated `{1}` as a package:",
-        "an option begins with two dashes.",
-    ),
+        "an option begins with two dashes."),
     Rule("colcon", r"ignoring unknown package '([^']+)'", _unknown_package),
     Rule("colcon", _TWICE, _twice_the_same),
-    Row(
-        "wrong-folder",
-        _BUILD,
-        _NO_PACKAGES,
+    Row("wrong-folder", _BUILD, _NO_PACKAGES,
         "colcon searched {here} and found no package there.",
         f"Go to the workspace with `{_way_to()}` and build there.",
-        lambda seen, call, _: seen.packages and call.place.resolve() != seen.workspace.resolve(),
-    ),
-    Row(
-        "no-packages",
-        _BUILD,
-        _NO_PACKAGES,
+        lambda seen, call, _: seen.packages and call.place.resolve() != seen.workspace.resolve()),
+    Row("no-packages", _BUILD, _NO_PACKAGES,
         "colcon found no package: no folder below this one contains a package.xml.",
         "Create a package in src with `ros2 pkg create` first.",
-        lambda seen, *_: not seen.packages,
-    ),
+        lambda seen, *_: not seen.packages),
     PackageRule(
         _BUILD,
         (_FOR_CPP,),
@@ -1105,7 +966,7 @@ _BUILD_RULES = (
     # A setup.py may name another file than the usual one, and then the build succeeds.
     PackageRule(_BUILD, (_NO_MARKER,), when=_failed),
     PackageRule(_BUILD, (_broken_module,)),
-)
+)  # fmt: skip
 
 
 # `ros2 run`.
@@ -1215,23 +1076,15 @@ def _edited(package: Package, name: str) -> Diagnosis | None:
 
 
 _RUN_RULES = (
-    Row(
-        "not-built",
-        "ros2",
-        _NO_PACKAGE,
+    Row("not-built", "ros2", _NO_PACKAGE,
         "The package {1} is in src, but it has not been built yet.",
         "In the workspace, run `colcon build` and then `source install/setup.bash`.",
-        lambda seen, _, found: (package := seen.package(found[1])) and not package.installed,
-    ),
-    Row(
-        "not-sourced",
-        "ros2",
-        _NO_PACKAGE,
+        lambda seen, _, found: (package := seen.package(found[1])) and not package.installed),
+    Row("not-sourced", "ros2", _NO_PACKAGE,
         "The package {1} is built, but the workspace is not sourced in this terminal.",
         "Source the workspace in every new terminal: run `source install/setup.bash` in the "
         "workspace, then try again.",
-        lambda seen, _, found: seen.package(found[1]),
-    ),
+        lambda seen, _, found: seen.package(found[1])),
     Rule("ros2", _NO_PACKAGE, _no_such_package),
     PackageRule(
         _RUN,
@@ -1239,45 +1092,37 @@ _RUN_RULES = (
             _FOR_CPP,
             *_PARTS,
             _refused_flaw,
-            PackageRow(
-                "not-rebuilt",
+            PackageRow("not-rebuilt",
                 lambda package, name: name in _executables(package),
                 "setup.py has the entry point {executable}, but the build in install is older "
                 "than that line.",
-                _AGAIN,
-            ),
+                _AGAIN),
         ),
         "No executable found",
     ),
     PackageRule(
         _RUN,
         (
-            PackageRow(
-                "group-misspelled",
+            PackageRow("group-misspelled",
                 lambda package, _: package.setup.misspelled_group,
                 "setup.py lists its entry points under {setup.misspelled_group}, where `ros2 "
                 "run` does not find them.",
-                f"Compare that word with page 05, letter by letter. {_AGAIN}",
-            ),
-            PackageRow(
-                "entry-point-missing",
+                f"Compare that word with page 05, letter by letter. {_AGAIN}"),
+            PackageRow("entry-point-missing",
                 _is_module_only,
                 "{stem}.py is in the package, but setup.py has no entry point for it, so `ros2 "
                 "run` cannot start it.",
-                "Add an entry point, 'executable = package.module:function', and build again.",
-            ),
-            PackageRow(
-                "executable-misspelled",
+                "Add an entry point, 'executable = package.module:function', and build again."),
+            PackageRow("executable-misspelled",
                 _names_a_node,
                 "{executable} is the name of a node or its class.",
-                "`ros2 run` takes the executable, the name before the `=` in setup.py.",
-            ),
+                "`ros2 run` takes the executable, the name before the `=` in setup.py."),
             _no_such_executable,
         ),
         "No executable found",
         lambda _, package: not package.setup.incomplete,
     ),
-)
+)  # fmt: skip
 
 
 # Errors of Python, and what Ctrl+C leaves on the screen (29).
@@ -1307,24 +1152,16 @@ def _in_a_node(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
 
 
 _LOADING_RULES = (
-    Row(
-        "other-python",
-        PYTHON,
-        "",
+    Row("other-python", PYTHON, "",
         "The program ran with another Python than the course's, and that Python has no ROS.",
         "`which python3` shows which Python a terminal uses. Open a terminal from the course, or "
         "run `./environment/course shell` first.",
-        lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error,
-    ),
-    Row(
-        "not-sourced",
-        _RUN,
-        "",
+        lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error),
+    Row("not-sourced", _RUN, "",
         "The package is now installed as a symbolic link, but this terminal sourced the "
         "workspace before that build.",
         "Run `source install/setup.bash` again.",
-        _linked_since,
-    ),
+        _linked_since),
     PackageRule(
         _RUN,
         (*_PARTS, _NOT_INSTALLED),
@@ -1332,60 +1169,40 @@ _LOADING_RULES = (
     ),
     PackageRule(_RUN, (_flaw_of_the_executable,), when=_is_about_loading),
     PackageRule(_RUN, (_broken_module,), when=lambda seen, _: seen.error.startswith(_UNREADABLE)),
-)
+)  # fmt: skip
 _ENDING_RULES = (
-    Row(
-        "ctrl-c-traceback",
-        PYTHON,
-        "",
+    Row("ctrl-c-traceback", PYTHON, "",
         "Ctrl+C has already shut ROS down when `main` calls `rclpy.shutdown()`, and shutting ROS "
         "down twice is an error.",
         "The node itself worked; only its exit isn't clean. Write `rclpy.try_shutdown()` in "
         "`main` instead.",
-        lambda seen, *_: seen.code and "rcl_shutdown already called" in seen.error,
-    ),
-    Row(
-        "ctrl-c-traceback",
-        PYTHON,
-        "",
+        lambda seen, *_: seen.code and "rcl_shutdown already called" in seen.error),
+    Row("ctrl-c-traceback", PYTHON, "",
         "Ctrl+C came while the node was still starting, before `main` could catch it.",
         "Nothing is broken: start the node again, and wait for its first line of output.",
-        _ended_by("ExternalShutdownException|KeyboardInterrupt", "in __init__"),
-    ),
+        _ended_by("ExternalShutdownException|KeyboardInterrupt", "in __init__")),
     *(
-        Row(
-            "ctrl-c-traceback",
-            PYTHON,
-            "",
+        Row("ctrl-c-traceback", PYTHON, "",
             f"{cause}, but `main` does not catch the exception, so Python shows a traceback.",
             "Nothing is broken. Put `rclpy.spin(node)` in a `try:` block, and below it  except "
             "(KeyboardInterrupt, ExternalShutdownException): pass",
-            _ended_by(kind),
-        )
+            _ended_by(kind))
         for kind, cause in (
             ("ExternalShutdownException", "ROS was shut down while the node was spinning"),
             ("KeyboardInterrupt", "Ctrl+C ended the node in the middle of its work"),
         )
     ),
-)
+)  # fmt: skip
 
 _RULES: Rules = (
     Rule(".*", "", _folder_gone),
-    Row(
-        "space-missing",
-        "cd{1}",
-        rf"{_BASH}cd([.~/][^:]*): ",
+    Row("space-missing", "cd{1}", rf"{_BASH}cd([.~/][^:]*): ",
         "A space is missing after `cd`:",
-        "write  cd {1}",
-    ),
-    Row(
-        "not-sourced",
-        "{1}",
-        rf"{_BASH}({_SETUP}): Permission denied",
+        "write  cd {1}"),
+    Row("not-sourced", "{1}", rf"{_BASH}({_SETUP}): Permission denied",
         "{1} is not a program to start: it changes this terminal's environment, so it has to be "
         "sourced.",
-        "Write `source` and a space before it: source {1}",
-    ),
+        "Write `source` and a space before it: source {1}"),
     *_COMMAND_RULES,
     *_MKDIR_RULES,
     *_CD_RULES,
@@ -1401,4 +1218,4 @@ _RULES: Rules = (
     PackageRule(_RUN, (_refused_since,), when=_runs_a_build),
     PackageRule(_RUN, (_edited,), when=_runs_a_build),
     Rule(PYTHON, "", _in_a_node),
-)
+)  # fmt: skip

@@ -2,7 +2,8 @@
 
 - `page_NN`: scenario, judge and hints of each exercise of a page, side by side.
 - `exercise`, `registry`: what an exercise is, and all of them by id.
-- `check`, `hint`, `predict`, `progress`: what a learner calls; `cards` shows their answers.
+- `check`, `hint`, `predict`, `progress`, `quiz`: what a learner calls; `cards` shows their answers,
+  and `questions.md` has the questions of `quiz`.
 - `scenarios`: runs an answer; `draw`: draws the inputs, the same on each page, and from a secret
   seed when a class is graded; `evidence`: what was seen, as JSON.
 - `model`: right models and suspects, and how one of them names the mistake.

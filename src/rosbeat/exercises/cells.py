@@ -203,7 +203,8 @@ class Cells:
         )
         run = replace(run, names=names, bound=bound)
         file = _file_of(raw)
-        blank = _is_blank(error) or (file is not None and bool(_BLANK.search(raw)))
+        blank = isinstance(error, NameError) and getattr(error, "name", "") == "____"
+        blank = blank or (file is not None and bool(_BLANK.search(raw)))
         if error is None and not blank:
             return run
         failure = _failure(error, space) if error is not None else ""
@@ -329,10 +330,6 @@ def _mark(value: object) -> object:
 def _is_same(one: object, other: object) -> bool:
     """Return whether two marks are of the same value."""
     return one is other or (type(one) is int and type(other) is int and one == other)
-
-
-def _is_blank(error: BaseException | None) -> bool:
-    return isinstance(error, NameError) and getattr(error, "name", "") == "____"
 
 
 def _failure(error: BaseException, space: Mapping[str, Any]) -> str:

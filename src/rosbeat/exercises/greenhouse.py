@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from importlib.resources import files
 from math import inf, isfinite, nan
 from pathlib import Path
@@ -454,52 +453,21 @@ def other_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     return day
 
 
-@dataclass(frozen=True)
 class Weather:
     """Hold the weather of every trial.
 
-    Attributes:
+    Args:
         numbers: The numbers of the rubric, by name.
         seed: From what the days are drawn.
     """
 
-    numbers: Mapping[str, float]
-    seed: int = PAGE
-
-    @cached_property
-    def air(self) -> Air:
-        """Return the readings that the days are made of."""
-        return air(self.numbers, self.seed)
-
-    @cached_property
-    def airing(self) -> Day:
-        """Return the first part of the plain day."""
-        return airing(self.numbers, self.seed)
-
-    @cached_property
-    def plain(self) -> Day:
-        """Return the day on which all sensors work."""
-        return plain_day(self.numbers, self.seed)
-
-    @cached_property
-    def broken(self) -> Day:
-        """Return the day on which sensors fail."""
-        return broken_day(self.numbers, self.seed)
-
-    @cached_property
-    def lossy(self) -> Day:
-        """Return the day on which nodes end."""
-        return lossy_day(self.numbers, self.seed)
-
-    @cached_property
-    def drought(self) -> Day:
-        """Return the day that stays dry."""
-        return drought(self.numbers, self.seed)
-
-    @cached_property
-    def other(self) -> Day:
-        """Return the day for other limits."""
-        return other_day(self.numbers, self.seed)
+    def __init__(self, numbers: Mapping[str, float], seed: int = PAGE) -> None:
+        self.numbers = numbers
+        self.air = air(numbers, seed)
+        self.airing, self.plain, self.broken, self.lossy, self.drought, self.other = (
+            make(numbers, seed)
+            for make in (airing, plain_day, broken_day, lossy_day, drought, other_day)
+        )
 
 
 def draw_weather(draw: Draw) -> int:

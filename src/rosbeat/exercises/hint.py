@@ -36,11 +36,6 @@ def are_here() -> bool:
 
 # `hint`: help with an exercise, one step at a time, the answer last.
 
-#: For an exercise that has no hint of its own.
-_READ_AGAIN = (
-    ("Read the exercise once more, word by word, and compare it with what the check says."),
-)
-
 #: Where there are no answers, as in what an instructor releases to a class.
 _LAST = "This was the last hint. Your instructor can tell you more."
 
@@ -109,15 +104,12 @@ def hint(exercise: str = "", *, again: bool = False) -> Hint:
     found = find(exercise, "hint({})")
     if (cells := cells_of()) is not None:
         cells.worked_on = found.id
-    texts = found.hints or _READ_AGAIN
     file = progress_file()
-    if again:
-        return _all_so_far(found.id, texts, file.standings().get(found.id, Standing()))
     before = file.standings().get(found.id, Standing())
-    standing = file.change(found.id, lambda before: _one_more(before, len(texts)))
-    if before.lead:
-        return _about(before, found, texts)
-    return _newest(found, texts, standing)
+    if again:
+        return _all_so_far(found, before)
+    standing = file.change(found.id, lambda before: _one_more(before, len(found.hints)))
+    return _about(found, before) if before.lead else _newest(found, standing)
 
 
 def next_hint(exercise: str) -> Hint:
@@ -130,12 +122,12 @@ def next_hint(exercise: str) -> Hint:
         ExerciseError: If there is no such exercise.
     """
     found = find(exercise, "hint({})")
-    texts = found.hints or _READ_AGAIN
+    most = len(found.hints)
     standing = progress_file().change(
-        found.id, lambda before: replace(before, lead="", hints=min(before.hints + 1, len(texts)))
+        found.id, lambda before: replace(before, lead="", hints=min(before.hints + 1, most))
     )
-    shown = (_numbered(found.id, texts, standing.hints),)
-    return Hint(found.id, shown, next="" if standing.hints < len(texts) else "It was the last one.")
+    last = "" if standing.hints < most else "It was the last one."
+    return Hint(found.id, (_numbered(found, standing.hints),), next=last)
 
 
 def reveal(exercise: str) -> Hint:
@@ -151,20 +143,11 @@ def reveal(exercise: str) -> Hint:
     if not are_here():
         raise ExerciseError(
             f"The answer to exercise {found.id} is not here.",
-            ("A course that was released to a class doesn't include the answers."),
+            "A course that was released to a class doesn't include the answers.",
             f'Take one hint more: hint("{found.id}").',
         )
     progress_file().change(found.id, lambda before: replace(before, answer=True))
     return Hint(found.id, answer=_answer(found.id))
-
-
-def _about(standing: Standing, exercise: Exercise[object], texts: tuple[str, ...]) -> Hint:
-    """Return the hint about the mistake that the last check has named."""
-    known = MISTAKES[standing.mistake]
-    head = f"Your last check of {exercise.id} found: {known.title}."
-    return Hint(
-        exercise.id, ((head, standing.lead),), next=_next(texts, standing.hints, exercise.id)
-    )
 
 
 def _one_more(before: Standing, there_are: int) -> Standing:
@@ -175,39 +158,40 @@ def _one_more(before: Standing, there_are: int) -> Standing:
     return replace(before, answer=True) if are_here() else before
 
 
-def _newest(exercise: Exercise[object], texts: tuple[str, ...], standing: Standing) -> Hint:
+def _about(exercise: Exercise[object], standing: Standing) -> Hint:
+    """Return the hint about the mistake that the last check has named."""
+    head = f"Your last check of {exercise.id} found: {MISTAKES[standing.mistake].title}."
+    return Hint(exercise.id, ((head, standing.lead),), next=_next(exercise, standing.hints))
+
+
+def _newest(exercise: Exercise[object], standing: Standing) -> Hint:
     if standing.answer and are_here():
         return Hint(exercise.id, answer=_answer(exercise.id))
-    number = min(standing.hints, len(texts))
-    return Hint(
-        exercise.id,
-        (_numbered(exercise.id, texts, number),),
-        next=_next(texts, number, exercise.id) + _earlier(exercise.id, number),
-    )
+    number = min(standing.hints, len(exercise.hints))
+    way = _next(exercise, number)
+    if number > 1:
+        way += f'\n  The earlier ones again: hint("{exercise.id}", again=True)'
+    return Hint(exercise.id, (_numbered(exercise, number),), next=way)
 
 
-def _earlier(exercise: str, number: int) -> str:
-    """Say how to see earlier hints again, once there are some."""
-    return f'\n  The earlier ones again: hint("{exercise}", again=True)' if number > 1 else ""
-
-
-def _all_so_far(exercise: str, texts: tuple[str, ...], standing: Standing) -> Hint:
-    used = min(standing.hints, len(texts))
-    shown = tuple(_numbered(exercise, texts, number) for number in range(1, used + 1))
+def _all_so_far(exercise: Exercise[object], standing: Standing) -> Hint:
+    used = min(standing.hints, len(exercise.hints))
+    shown = tuple(_numbered(exercise, number) for number in range(1, used + 1))
     if standing.answer and are_here():
-        return Hint(exercise, shown, _answer(exercise))
-    return Hint(exercise, shown, next=_next(texts, used, exercise))
+        return Hint(exercise.id, shown, _answer(exercise.id))
+    return Hint(exercise.id, shown, next=_next(exercise, used))
 
 
-def _numbered(exercise: str, texts: tuple[str, ...], number: int) -> tuple[str, str]:
-    return f"Hint {number} of {len(texts)} for exercise {exercise}:", texts[number - 1]
+def _numbered(exercise: Exercise[object], number: int) -> tuple[str, str]:
+    head = f"Hint {number} of {len(exercise.hints)} for exercise {exercise.id}:"
+    return head, exercise.hints[number - 1]
 
 
-def _next(texts: tuple[str, ...], used: int, exercise: str) -> str:
-    if used >= len(texts):
+def _next(exercise: Exercise[object], used: int) -> str:
+    if used >= len(exercise.hints):
         return "The next one is the answer." if are_here() else _LAST
     what = "One more" if used else "There was no hint yet. The first one"
-    return f'{what}: hint("{exercise}")'
+    return f'{what}: hint("{exercise.id}")'
 
 
 #: The whole system has no cell of its own.

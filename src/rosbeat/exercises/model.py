@@ -354,57 +354,39 @@ _COUNT = (
     "two calls?"
 )
 _BEATS = suspects(
-    (
-        "no-timer",
+    ("no-timer",
         "The constructor runs once. What calls the method again and again?",
-        lambda beat: {0: beat.done.get(0, (1,))},
-    ),
-    (
-        "gone-quiet",
-        (
-            "Something ends the messages. Does the callback cancel its timer or "
-            "shut ROS down? Is a condition never true again?"
-        ),
-        lambda beat: dict(list(beat.right.items())[: len(beat.done)]),
-    ),
-    (
-        "wrong-rate",
-        ("The first tick comes after one period. What publishes in the constructor?"),
-        lambda beat: {0: (1,), **beat.right},
-    ),
-    (
-        "wrong-rate",
+        lambda beat: {0: beat.done.get(0, (1,))}),
+    ("gone-quiet",
+        "Something ends the messages. Does the callback cancel its timer or shut ROS down? Is a "
+        "condition never true again?",
+        lambda beat: dict(list(beat.right.items())[: len(beat.done)])),
+    ("wrong-rate",
+        "The first tick comes after one period. What publishes in the constructor?",
+        lambda beat: {0: (1,), **beat.right}),
+    ("wrong-rate",
         "One for each tick is enough. Does anything publish twice, or are there two timers?",
-        lambda beat: dict.fromkeys(beat.right, beat.done.get(min(beat.right), (2,))),
-    ),
-    (
-        "made-anew",
+        lambda beat: dict.fromkeys(beat.right, beat.done.get(min(beat.right), (2,)))),
+    ("made-anew",
         "Each call makes another timer, and a timer repeats by itself. Make it once, in the "
         "constructor.",
-        lambda beat: {at: (2**call,) for call, at in enumerate(beat.right)},
-    ),
-    (
-        "wrong-rate",
+        lambda beat: {at: (2**call,) for call, at in enumerate(beat.right)}),
+    ("wrong-rate",
         "Two timers publish, each with a period of its own. Where does the other one come from?",
-        lambda beat: _together(beat.right, _ticks(_first_extra(beat), beat.end)),
-    ),
-    (
-        "wrong-rate",
+        lambda beat: _together(beat.right, _ticks(_first_extra(beat), beat.end))),
+    ("wrong-rate",
         "Several messages come at once, and none in between. One timer with a shorter period, "
         "and one message for each tick, spreads them evenly.",
         lambda beat: (
             dict.fromkeys(_ticks(min(beat.done), beat.end), beat.done[min(beat.done)])
             if beat.done[min(beat.done)] > (1,)
             else {}
-        ),
-    ),
-    (
-        "wrong-rate",
+        )),
+    ("wrong-rate",
         "The timer is right, but some ticks publish nothing. Which condition skips them?",
-        _with_gaps,
-    ),
+        _with_gaps),
     ("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
-)
+)  # fmt: skip
 
 
 def diagnose_wait(observation: Observation, evidence: str, least: float = 0.0) -> Diagnosis | None:

@@ -73,10 +73,8 @@ def _judge_reader(observation: Observation, seconds: Seconds) -> Verdict:
         return Diagnosis(
             "wrong-topic",
             f"The reader's callback ran {count} times, for messages on {', '.join(sorted(heard))}.",
-            (
-                "It should run for /weather only. The topic is the second argument of"
-                " create_subscription."
-            ),
+            "It should run for /weather only. The topic is the second argument of "
+            "create_subscription.",
         )
     if count < articles:
         evidence = f"The reader heard {count} of {articles} articles on /weather."
@@ -85,7 +83,7 @@ def _judge_reader(observation: Observation, seconds: Seconds) -> Verdict:
     return Diagnosis(
         "heard-twice",
         f"There were {articles} articles, and the reader's callback ran {count} times.",
-        ("One subscription is enough. Do you call create_subscription twice?"),
+        "One subscription is enough. Do you call create_subscription twice?",
     )
 
 
@@ -147,43 +145,19 @@ def _empty_article(observation: Observation) -> Diagnosis | None:
     return Diagnosis(
         "wrong-values",
         f"The article at {empty.time:g} s is empty.",
-        ("A new String is empty. Which line assigns the article to its field data?"),
+        "A new String is empty. Which line assigns the article to its field data?",
     )
 
 
 EXERCISES = (
-    Exercise(
-        "00a",
-        _run_among_reporters,
-        _judge_reader,
-        "read the weather",
-        1,
-        (
-            (
-                "Look at the Reader on this page: the topic is the second argument of"
-                " create_subscription."
-            ),
-            "The name of a topic is a string, so it needs quotes.",
-        ),
-        draw=draw_articles,
-    ),
-    Exercise(
-        "00b",
-        observe,
-        _judge_reporter,
-        "report on sports",
-        1,
-        (
-            (
-                "Two things are missing: the topic of the articles, and the time from"
-                " one to the next."
-            ),
-            (
-                "The topic is a string in quotes. The timer needs a number: the "
-                "seconds between two calls."
-            ),
-        ),
-        draw=draw_seconds,
-        explains=partial(explain_subscription, _SPORTS),
-    ),
-)
+    Exercise("00a", _run_among_reporters, _judge_reader, "read the weather", 1, (
+        "Look at the Reader on this page: the topic is the second argument of "
+        "create_subscription.",
+        "The name of a topic is a string, so it needs quotes.",
+    ), draw=draw_articles),
+    Exercise("00b", observe, _judge_reporter, "report on sports", 1, (
+        "Two things are missing: the topic of the articles, and the time from one to the next.",
+        "The topic is a string in quotes. The timer needs a number: the seconds between two "
+        "calls.",
+    ), draw=draw_seconds, explains=partial(explain_subscription, _SPORTS)),
+)  # fmt: skip

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import posixpath
 import re
-import shlex
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.terminal import commands_in
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import Suspect, name_mistake
 from rosbeat.exercises.scenarios import (
@@ -19,38 +20,16 @@ from rosbeat.exercises.scenarios import (
     CommandMeaning,
     TypedIn,
     Workspace,
-    leave_first,
     look_at_terminal,
     look_at_workspace,
-    terminal_folders,
     typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
 from rosbeat.workspace.catching_up import FOLDERS
 from rosbeat.workspace.place import NAME, workspace
 
-# Lines that were typed.
-
-_SEPARATORS = {";", "&&", "||", "|", "&"}
-
-
-def _commands(line: str) -> list[list[str]]:
-    """Return the words of each command in a line."""
-    lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
-    lexer.whitespace_split = True
-    lexer.escape = ""  # a backslash stays to be seen
-    try:
-        words = list(lexer)
-    except ValueError:  # a quote is not closed
-        words = line.split()
-    found: list[list[str]] = [[]]
-    for word in words:
-        if word in _SEPARATORS:
-            found.append([])
-        else:
-            found[-1].append(word)
-    return [one for one in found if one]
-
+#: Returns the words of each command in a line; a backslash stays to be seen.
+_commands = partial(commands_in, escape="")
 
 # 01a, a folder in a folder: what is in the workspace, and what was typed to make it.
 
@@ -72,8 +51,6 @@ class FolderMaking:
         tried: Each line about that folder, with the folder it was typed in, as the prompt said it.
             Empty where a page has no terminals.
         meaning: What the last of these lines has led to, if it is a known mistake.
-        outside: A line that makes such a folder, in a cell that is run by no terminal.
-        standing: The folders that the terminals of the page are in.
     """
 
     workspace: Workspace
@@ -81,8 +58,6 @@ class FolderMaking:
     is_older: bool = False
     tried: tuple[tuple[str, str], ...] = ()
     meaning: CommandMeaning | None = None
-    outside: str = ""
-    standing: tuple[str, ...] = ()
 
 
 #: This module is imported by the first cell of a page.
@@ -97,25 +72,7 @@ def _look_at_making(answer: Answer) -> FolderMaking:
     if (root / _RUNS_THROUGH).is_symlink():
         obstacle = "behind a link"
     is_older = place.is_dir() and place.stat().st_mtime < _PAGE_BEGAN
-    outside = "" if tried else _typed_outside()
-    standing = terminal_folders(root)
-    return FolderMaking(found, obstacle, is_older, tried, meaning, outside, standing)
-
-
-def _typed_outside() -> str:
-    """Return the last line that makes the folder in a cell of this page without a terminal."""
-    from IPython import get_ipython
-
-    shell = get_ipython()
-    cells = shell.history_manager.input_hist_raw if shell else []
-    lines = [
-        line.strip().lstrip("!% ")
-        for cell in cells
-        if not cell.lstrip().startswith("%%terminal")
-        for line in cell.splitlines()
-    ]
-    typed = [one for one in lines if "mkdir " in one and _is_try(one)]
-    return typed[-1] if typed else ""
+    return FolderMaking(found, obstacle, is_older, tried, meaning)
 
 
 def _is_try(line: str) -> bool:
@@ -164,22 +121,12 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
         return Diagnosis(known.mistake, known.evidence, hint)
     if typed or there:
         return _diagnose_making(typed, there, seen)
-    if seen.outside:
-        return _diagnose_outside(seen.outside)
     if not seen.tried:
         return not_attempted(f"There is no folder {_ALARM} yet.")
     said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
+    if _commands(seen.tried[-1][1])[-1][0] == "touch":
+        return Diagnosis("not-a-folder", said, "touch makes empty files. What makes folders?")
     return Diagnosis(UNKNOWN, said, _PWD)
-
-
-def _diagnose_outside(line: str) -> Diagnosis:
-    """Return what is wrong with a line in a cell that is run by no terminal."""
-    said = f"You typed `{line}` in a cell that no terminal runs."
-    hint = "Begin the cell with `%%terminal one`, as it was given, with nothing above that line."
-    if re.search(r"(?<!\S)-(-parents|\w*p)\b", line):
-        return Diagnosis(UNKNOWN, said, hint)
-    said += " It also names a folder in a folder that is not there yet."
-    return Diagnosis("parents-missing", said, f"{hint} {_PARENTS}")
 
 
 def _is_near(folder: str) -> bool:
@@ -195,7 +142,6 @@ def _letters(path: str) -> str:
 
 _BOTH = _PARENT + _CHILD
 _PWD = "A relative path starts from the terminal's current folder; pwd prints it."
-_PARENTS = "Which option of mkdir also creates the missing parent folders?"
 _ONE_LEVEL = "One level is missing. A path can contain several folders: outer/inner."
 _BETWEEN = "One level is missing: which folder is between the two?"
 _SIDE_BY_SIDE = (
@@ -289,10 +235,9 @@ def _advice_to_remove(near: set[str], seen: FolderMaking) -> str:
     if not astray:
         return ""
     listed = " and ".join(said for _, said in sorted(astray))
-    leave = next(filter(None, (leave_first(one, seen.standing) for one, _ in sorted(astray))), "")
     return (
-        f" {leave}You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with "
-        "all that is in it."
+        f" You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with all "
+        "that is in it."
     )
 
 
@@ -387,6 +332,9 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
         folder: Where the terminal is now.
     """
     first, rest = words[0], words[1:]
+    if first == "(":
+        hint = "Parentheses run a command in a shell of its own: this terminal stays where it is."
+        return "wrong-folder", hint
     if first.startswith("cd") and first[2:3] in tuple("./~\\"):
         return "space-missing", "Put a space between `cd` and the path."
     if "\\" in " ".join(words):
@@ -410,26 +358,14 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "01a",
-        _look_at_making,
-        _judge_folder,
-        title="a folder in a folder",
-        hints=(
-            "One `mkdir` can create several folders, one inside another.",
-            ("In a path, `/` separates the outer folder from the one inside it."),
-            ("If a parent folder is missing, too, you need the option that is short for parents."),
-        ),
-    ),
-    Exercise(
-        "01b",
-        _look_at_way,
-        _judge_way,
-        title="from here to there",
-        hints=(
-            "`..` is the folder that contains the current one.",
-            f"Count the levels from {_START} up to the workspace.",
-            ("Go up that many levels and then down into the folder you want, all in one path."),
-        ),
-    ),
-)
+    Exercise("01a", _look_at_making, _judge_folder, title="a folder in a folder", hints=(
+        "One `mkdir` can create several folders, one inside another.",
+        "In a path, `/` separates the outer folder from the one inside it.",
+        "If a parent folder is missing, too, you need the option that is short for parents.",
+    )),
+    Exercise("01b", _look_at_way, _judge_way, title="from here to there", hints=(
+        "`..` is the folder that contains the current one.",
+        f"Count the levels from {_START} up to the workspace.",
+        "Go up that many levels and then down into the folder you want, all in one path.",
+    )),
+)  # fmt: skip

@@ -18,9 +18,7 @@ from rosbeat.exercises.scenarios import (
     Answer,
     CommandMeaning,
     Workspace,
-    leave_first,
     look_at_workspace,
-    terminal_folders,
     typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
@@ -135,10 +133,8 @@ def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]
         yield Diagnosis(
             "manifest-value",
             f"The version is {manifest.version or 'not given'}.",
-            (
-                "A version consists of three numbers, separated by dots. Without one,"
-                " colcon doesn't build the package."
-            ),
+            "A version consists of three numbers, separated by dots. Without one, colcon doesn't "
+            "build the package.",
         )
     if not manifest.maintainer or not _EMAIL.fullmatch(manifest.email):
         yield Diagnosis(
@@ -219,20 +215,17 @@ class PackageMaking:
         workspace: What is in the workspace.
         tried: The last line that was to make a package; empty where a page has no terminals.
         meaning: What that line has led to, if it is a known mistake.
-        standing: The folders that the terminals of the page are in.
     """
 
     workspace: Workspace
     tried: str = ""
     meaning: CommandMeaning | None = None
-    standing: tuple[str, ...] = ()
 
 
 def _look_at_package_making(answer: Answer) -> PackageMaking:
     found = look_at_workspace(answer)
     typed, meaning = typed_about(Path(answer), _is_try)
-    standing = terminal_folders(Path(answer))
-    return PackageMaking(found, typed[-1][1] if typed else "", meaning, standing)
+    return PackageMaking(found, typed[-1][1] if typed else "", meaning)
 
 
 def _is_try(line: str) -> bool:
@@ -263,12 +256,11 @@ def _nothing_made(tried: str) -> Verdict:
     )
 
 
-def _misplaced(place: str, folder: str, standing: tuple[str, ...]) -> Diagnosis:
+def _misplaced(place: str) -> Diagnosis:
     return Diagnosis(
         "wrong-folder",
         f"{_SECOND} lies in {place}, and packages belong in src.",
-        f"{leave_first(folder, standing)}Remove it there (rm -r), go to src with cd, and make it "
-        "again.",
+        "Remove it there (rm -r), go to src with cd, and make it again.",
     )
 
 
@@ -280,33 +272,30 @@ def _slips_of_absence(made: PackageMaking) -> Iterator[Diagnosis]:
     for folder in inside:
         place = folder.rpartition("/")[0]
         if place and any(f"{place}/".startswith(package) for package in packages):
-            yield _misplaced(place, folder, made.standing)
+            yield _misplaced(place)
     if inside:
         yield Diagnosis(
             "no-manifest",
             f"There is a folder {inside[0]}, and no package.xml in it.",
-            "`ros2 pkg create` makes the folder and all that belongs in it. "
-            f"{leave_first(inside[0], made.standing)}Remove the folder first: `rmdir` removes an "
-            "empty one.",
+            "`ros2 pkg create` makes the folder and all that belongs in it. Remove the folder "
+            "first: `rmdir` removes an empty one.",
         )
-    for name, package in seen.packages.items():
+    for name in seen.packages:
         if alike(name, _SECOND) and name != _FIRST:
             yield Diagnosis(
                 "package-misspelled",
                 f"There is a package {name}, and none called {_SECOND}.",
-                "Names count letter by letter. "
-                f"{leave_first(package.folder.as_posix(), made.standing)}Remove the folder (rm -r) "
-                f"of {name}, and make it again.",
+                f"Names count letter by letter. Remove the folder (rm -r) of {name}, and make it "
+                "again.",
             )
 
 
 def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnosis]:
     """Generate what is wrong with the package that is there."""
     place, manifest = made.workspace.place_of(_SECOND), package.manifest
-    leave = leave_first(f"src/{_SECOND}", made.standing)
-    again = f"{leave}Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
+    again = f"Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
     if place:
-        yield _misplaced(place, package.folder.as_posix(), made.standing)
+        yield _misplaced(place)
     yield from _slips_of_form(manifest, f"src/{_SECOND}/package.xml")
     if manifest.build_type != "ament_python":
         kind = manifest.build_type or "of an unknown kind"
@@ -330,29 +319,17 @@ def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnos
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "02a",
-        look_at_workspace,
-        _judge_manifest,
-        title="complete the manifest",
-        points=2,
-        hints=(
-            ("Two entries of the manifest are still open. Look for the blanks."),
-            ("One describes the package in a sentence; the other says what others may do with it."),
-            "A licence is named by its short name, without spaces. ROS itself uses one of them, "
-            "and the text above the cell names it.",
-        ),
-    ),
-    Exercise(
-        "02b",
-        _look_at_package_making,
-        _judge_second,
-        title="a second package",
-        points=2,
-        hints=(
-            ("It's the command that created the first package, with other names."),
-            ("One blank is for the kind of package, the other for its dependencies."),
-            ("Both blanks begin with an option: two dashes and a word, as in the table above."),
-        ),
-    ),
-)
+    Exercise("02a", look_at_workspace, _judge_manifest, title="complete the manifest",
+        points=2, hints=(
+        "Two entries of the manifest are still open. Look for the blanks.",
+        "One describes the package in a sentence; the other says what others may do with it.",
+        "A licence is named by its short name, without spaces. ROS itself uses one of them, "
+        "and the text above the cell names it.",
+    )),
+    Exercise("02b", _look_at_package_making, _judge_second, title="a second package",
+        points=2, hints=(
+        "It's the command that created the first package, with other names.",
+        "One blank is for the kind of package, the other for its dependencies.",
+        "Both blanks begin with an option: two dashes and a word, as in the table above.",
+    )),
+)  # fmt: skip

@@ -325,32 +325,31 @@ _SIGNS = _signs(
      _Walk.is_in_another_unit),
     ("wrong-values", "A new message holds 0.0. Which line puts the number into its field data?",
      lambda walk: walk.is_constant(0.0)),
-    ("clamp-swapped", ("It stays at {0.top:g} from the first reading on. Which function "
-"keeps a number below a limit, min or max?"), lambda walk: walk.is_constant(walk.asked.high)),
-    ("never-changes", ("It never changes. Does each call add a new random number to the old "
-"value? Are min and max swapped?"), lambda walk: walk.widest == 0),
+    ("clamp-swapped", "It stays at {0.top:g} from the first reading on. Which function keeps a "
+     "number below a limit, min or max?", lambda walk: walk.is_constant(walk.asked.high)),
+    ("never-changes", "It never changes. Does each call add a new random number to the old value? "
+     "Are min and max swapped?", lambda walk: walk.widest == 0),
     ("wrong-values", "All readings are whole numbers. Is something rounded, or are the steps whole "
      "numbers?", lambda walk: all(one == round(one) for one in walk.values)),
-    ("wraps-round", ("Beyond one limit, it continues at the other. Clamp the value "
-"instead: then the walk stays at the limit until a step leads away "
-"from it."), _Walk.wraps_round),
-    ("set-back", ("At a limit, it is reset by far more than a step. Clamp the value "
-"instead: then the walk continues from the limit."), _Walk.is_set_back),
+    ("wraps-round", "Beyond one limit, it continues at the other. Clamp the value instead: then "
+     "the walk stays at the limit until a step leads away from it.", _Walk.wraps_round),
+    ("set-back", "At a limit, it is reset by far more than a step. Clamp the value instead: then "
+     "the walk continues from the limit.", _Walk.is_set_back),
     ("jumps", "Most steps are small, and a few are not. Which line changes the temperature, "
      "besides the one that adds a step?", lambda walk: bool(walk.jumps)),
     ("step-too-wide", "Nearly every step leads from one limit to the other. Steps may be as wide "
      "as {asked.step:g}, up and down.{asked.aside}", _Walk.is_mostly_at_a_limit),
-    ("forgets-itself", ("Each reading is a new random number, independent of the one before. "
-"In a walk, you add a step to the old value."),
+    ("forgets-itself", "Each reading is a new random number, independent of the one before. In a "
+     "walk, you add a step to the old value.",
      lambda walk: walk.widest > 0.5 * (walk.top - walk.bottom)),
-    ("one-way", ("It goes one way only. Each step should go up or down at random."),
+    ("one-way", "It goes one way only. Each step should go up or down at random.",
      lambda walk: walk.up <= 0 or walk.down <= 0),
     ("not-random", "The same steps come again, in the same order. Draw a new number at each call, "
      "and none in advance.", _Walk.is_drawn_in_advance),
     ("not-random", "It goes up and down by a rule of its own, every time the same way. Let a "
      "random number decide about each step.", _Walk.follows_a_rule),
-    ("clamped-too-early", ("It exceeds a limit by less than a step. Which comes first, the step "
-"or the clamp?"), _Walk.is_clamped_too_early),
+    ("clamped-too-early", "It exceeds a limit by less than a step. Which comes first, the step or "
+     "the clamp?", _Walk.is_clamped_too_early),
     ("step-too-wide", "A step is too wide. random.uniform(a, b) gives a number between a and "
      "b.{asked.aside}", lambda walk: walk.widest > walk.asked.step + _IN_A_STEP),
     ("step-too-small", "The steps are small. They may be as wide as {asked.step:g}, up and "
@@ -359,8 +358,8 @@ _SIGNS = _signs(
      "may be as wide as {asked.step:g}, up and down.{asked.aside}", _Walk.is_uneven),
 )  # fmt: skip
 _SIGNS_AT_AN_END = _signs(
-    ("clamp-not-kept", ("It stays at {0.limit:g} for minutes. The published value is clamped,"
-" but the stored one isn't: it has to walk all the way back."), _End.is_stuck),
+    ("clamp-not-kept", "It stays at {0.limit:g} for minutes. The published value is clamped, but "
+     "the stored one isn't: it has to walk all the way back.", _End.is_stuck),
     ("clamp-swapped", "It never gets past {0.value:g}. Which of the two, min or max, keeps a "
      "number below a limit?", lambda end: end.is_cut() and abs(end.value - end.other) < _ROUNDING),
     ("other-limits", "Something cuts it off at {0.value:g}, and {0.limit:g} was asked "
@@ -408,68 +407,29 @@ def _judge_walk(asked: _Asked, observation: Observation, more: float) -> Verdict
 
 
 EXERCISES = (
-    Exercise(
-        "03a",
-        observe,
-        _judge_beat,
-        "another sensor",
-        2,
-        (
-            (
-                "Two calls are missing: one creates the publisher, the other the "
-                "timer. The page shows both for the temperature sensor."
-            ),
-            "create_publisher takes the message type, the topic's name in quotes, and the queue "
-            "depth, in this order.",
-            (
-                "create_timer takes the time between two calls, in seconds, and the "
-                "method, without parentheses. Twice a second: how many seconds are "
-                "that from one call to the next?"
-            ),
-        ),
-        draw=draw_seconds,
-        explains=partial(explain_subscription, _HUMIDITY),
-    ),
-    Exercise(
-        "03b",
-        partial(_run_walk, _ROOM),
-        partial(_judge_walk, _ROOM),
-        "a living room",
-        2,
-        (
-            "Three things happen at each tick: a random step, the clamp, and a message.",
-            "random.uniform(a, b) is a number between a and b, and += adds it to what was there.",
-            (
-                "min(high, x) limits x from above, and max(low, x) from below. Put "
-                "one inside the other, and store the result in self.temperature."
-            ),
-            ("Float32(data=...) creates a message, and self.publisher_.publish sends it."),
-        ),
-        draw=draw_more,
-        explains=partial(explain_subscription, _ROOM.wire),
-    ),
-    Exercise(
-        "03c",
-        partial(_run_walk, _GREENHOUSE),
-        partial(_judge_walk, _GREENHOUSE),
-        "a greenhouse, alone",
-        4,
-        (
-            (
-                "Begin with a copy of the sensor on this page, and change one thing "
-                "at a time: topic, rate, unit. Check after each change."
-            ),
-            "Four times a second means a quarter of a second between two calls.",
-            (
-                "Keep self.temperature in Celsius, with the same step and clamp. "
-                "Convert only the value that goes into the message."
-            ),
-            (
-                "The result of a calculation such as c * 9 / 5 + 32 is already a "
-                "float; store it in a variable of its own."
-            ),
-        ),
-        draw=draw_more,
-        explains=partial(explain_subscription, _GREENHOUSE.wire),
-    ),
-)
+    Exercise("03a", observe, _judge_beat, "another sensor", 2, (
+        "Two calls are missing: one creates the publisher, the other the timer. The page shows "
+        "both for the temperature sensor.",
+        "create_publisher takes the message type, the topic's name in quotes, and the queue "
+        "depth, in this order.",
+        "create_timer takes the time between two calls, in seconds, and the method, without "
+        "parentheses. Twice a second: how many seconds are that from one call to the next?",
+    ), draw=draw_seconds, explains=partial(explain_subscription, _HUMIDITY)),
+    Exercise("03b", partial(_run_walk, _ROOM), partial(_judge_walk, _ROOM), "a living room", 2, (
+        "Three things happen at each tick: a random step, the clamp, and a message.",
+        "random.uniform(a, b) is a number between a and b, and += adds it to what was there.",
+        "min(high, x) limits x from above, and max(low, x) from below. Put one inside the "
+        "other, and store the result in self.temperature.",
+        "Float32(data=...) creates a message, and self.publisher_.publish sends it.",
+    ), draw=draw_more, explains=partial(explain_subscription, _ROOM.wire)),
+    Exercise("03c", partial(_run_walk, _GREENHOUSE), partial(_judge_walk, _GREENHOUSE),
+        "a greenhouse, alone", 4, (
+        "Begin with a copy of the sensor on this page, and change one thing at a time: topic, "
+        "rate, unit. Check after each change.",
+        "Four times a second means a quarter of a second between two calls.",
+        "Keep self.temperature in Celsius, with the same step and clamp. Convert only the "
+        "value that goes into the message.",
+        "The result of a calculation such as c * 9 / 5 + 32 is already a float; store it in a "
+        "variable of its own.",
+    ), draw=draw_more, explains=partial(explain_subscription, _GREENHOUSE.wire)),
+)  # fmt: skip

@@ -63,13 +63,13 @@ FRIDGE_SUSPECTS = suspects(
      _each(partial(_state, high=26.0, low=20.0))),
     ("wrong-state", "Warm and Frost are swapped.",
      _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
-    ("wrong-state", ("Whole degrees aren't precise enough: compare the reading itself."),
+    ("wrong-state", "Whole degrees aren't precise enough: compare the reading itself.",
      _each(lambda value: _state(int(value))), _each(lambda value: _state(round(value)))),
-    ("wrong-state", ("Your node compares the rounded number. Compare the reading itself, "
-"and round only what you display."), _each(lambda value: _state(round(value, 1))),
+    ("wrong-state", "Your node compares the rounded number. Compare the reading itself, and round "
+     "only what you display.", _each(lambda value: _state(round(value, 1))),
      _each(lambda value: _state(round(value, 2)))),
-    ("wrong-state", ("It's the state of the previous reading. Does your node store a "
-"reading before it judges it?"), lambda fed: _each(_state)([fed[0], *fed[:-1]])),
+    ("wrong-state", "It's the state of the previous reading. Does your node store a reading before "
+     "it judges it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
 )  # fmt: skip
 
 
@@ -184,9 +184,8 @@ ROOM_SUSPECTS = suspects(
     ("alert-missing", "Your node compares the rounded number. Compare the reading as it comes.",
      *(lambda fed, digits=digits: _alerts()([round(one, digits) for one in fed])
        for digits in (0, 1, 2)), lambda fed: _alerts()([int(one) for one in fed])),
-    ("alert-too-many", ("The normal readings get the alerts. Is your condition the wrong way "
-"round?"), lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1)
-                                  if at not in _alerts()(fed)}),
+    ("alert-too-many", "The normal readings get the alerts. Is your condition the wrong way round?",
+     lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1) if at not in _alerts()(fed)}),
     ("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
     ("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
     ("alert-missing", f"Only the first bad reading got an alert. {_EACH_ONE}",
@@ -503,10 +502,6 @@ def _mean_each_second(seconds: Seconds) -> Seconds:
     return [means.get(place * _SPACING, (None,))[0] for place in range(1, len(seconds) + 1)]
 
 
-def _of_the_mean(seconds: Seconds, model: Model) -> Track:
-    return model(_mean_each_second(seconds))
-
-
 def _hysteresis_suspects(each: bool) -> Iterator[tuple[str, str, Model]]:
     """Generate what can be wrong with the two limits, of a node that publishes each or changes."""
     says = partial(_statuses, compares=not each)
@@ -522,7 +517,7 @@ def _hysteresis_suspects(each: bool) -> Iterator[tuple[str, str, Model]]:
         "The two limits of the way back have changed places: 25 belongs to High, and 21 to Low."
     )
     yield lost, swapped, says({"back_high": 21.0, "back_low": 25.0})
-    yield "wrong-state", _OF_THE_MEAN, partial(_of_the_mean, model=says())
+    yield "wrong-state", _OF_THE_MEAN, lambda seconds: says()(_mean_each_second(seconds))
 
 
 def _first_of_each(said: Track) -> Track:
@@ -639,79 +634,34 @@ def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence
 
 
 EXERCISES = (
-    Exercise(
-        "04a",
-        _feed,
-        _judge_states,
-        "watch a fridge",
-        1,
-        (
-            "The monitor of this page decides between three words, too. Compare the limits.",
-            "if, elif and else are tried from top to bottom. > and < leave the limit itself out.",
-        ),
-        draw=draw_fridge,
-    ),
-    Exercise(
-        "04b",
-        _feed,
-        _judge_alarm,
-        "raise the alarm",
-        2,
-        (
-            "The publisher is made once, in __init__, like the sensor's; the message type and the "
-            "topic are others.",
-            (
-                "A reading gets an alert if it's too high or too low: join the two "
-                "conditions with `or`."
-            ),
-            "Create a String like a Float32, with a text in its field data.",
-        ),
-        draw=draw_room,
-    ),
-    Exercise(
-        "04c",
-        partial(_feed, period=_SPACING),
-        _judge_means,
-        "the mean of five readings",
-        1,
-        (
-            "The node needs a memory: a list in self, which begins empty. Each reading goes into "
-            "it.",
-            (
-                "Keep the readings in a list. readings[-5:] is its last five items, "
-                "or all of them if there are fewer."
-            ),
-        ),
-        draw=draw_hysteresis,
-    ),
-    Exercise(
-        "04d",
-        partial(_feed, period=_SPACING),
-        _judge_hysteresis,
-        "a status with two limits",
-        2,
-        (
-            "The status needs a memory: self.status. Find the new one from the reading and from "
-            "the old one.",
-            (
-                "Test for High and Low first: they don't depend on the old status. "
-                "Then test whether a High or a Low has come back far enough."
-            ),
-        ),
-        draw=draw_hysteresis,
-    ),
-    Exercise(
-        "04e",
-        partial(_feed, period=_SPACING),
-        _judge_changes,
-        "a calm monitor",
-        1,
-        (
-            "Your node already finds the new status. What does it still know of the old one at "
-            "that moment?",
-            "Find the new status and keep it in a variable of its own first. Publish it only if "
-            "it differs from self.status, and then store it there.",
-        ),
-        draw=draw_hysteresis,
-    ),
-)
+    Exercise("04a", _feed, _judge_states, "watch a fridge", 1, (
+        "The monitor of this page decides between three words, too. Compare the limits.",
+        "if, elif and else are tried from top to bottom. > and < leave the limit itself out.",
+    ), draw=draw_fridge),
+    Exercise("04b", _feed, _judge_alarm, "raise the alarm", 2, (
+        "The publisher is made once, in __init__, like the sensor's; the message type and the "
+        "topic are others.",
+        "A reading gets an alert if it's too high or too low: join the two conditions with "
+        "`or`.",
+        "Create a String like a Float32, with a text in its field data.",
+    ), draw=draw_room),
+    Exercise("04c", partial(_feed, period=_SPACING), _judge_means, "the mean of five readings", 1, (
+        "The node needs a memory: a list in self, which begins empty. Each reading goes into "
+        "it.",
+        "Keep the readings in a list. readings[-5:] is its last five items, or all of them if "
+        "there are fewer.",
+    ), draw=draw_hysteresis),
+    Exercise("04d", partial(_feed, period=_SPACING), _judge_hysteresis, "a status with two limits",
+        2, (
+        "The status needs a memory: self.status. Find the new one from the reading and from "
+        "the old one.",
+        "Test for High and Low first: they don't depend on the old status. Then test whether a "
+        "High or a Low has come back far enough.",
+    ), draw=draw_hysteresis),
+    Exercise("04e", partial(_feed, period=_SPACING), _judge_changes, "a calm monitor", 1, (
+        "Your node already finds the new status. What does it still know of the old one at "
+        "that moment?",
+        "Find the new status and keep it in a variable of its own first. Publish it only if "
+        "it differs from self.status, and then store it there.",
+    ), draw=draw_hysteresis),
+)  # fmt: skip

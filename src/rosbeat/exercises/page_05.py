@@ -66,39 +66,23 @@ def _remarks_on_texts(package: Package) -> tuple[str, ...]:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "05a",
-        look_at_workspace,
-        partial(
-            _judge_setup,
-            name="sensor_simulator",
-            programs=("temperature_publisher", "temperature_subscriber"),
-        ),
-        title="two programs",
-        points=2,
-        hints=(
-            "Each program needs one string in the list of console scripts.",
-            (
-                "An entry consists of the name that you type after `ros2 run` and the"
-                " package, an equals sign, and the place of the code."
-            ),
-            (
-                "The place of the code is: the package, a dot, the file without .py, "
-                "a colon, the function."
-            ),
-            ("Two entries are two strings: put quotes around each, and a comma after each."),
-        ),
-    ),
-    Exercise(
-        "05b",
-        look_at_workspace,
+    Exercise("05a", look_at_workspace,
+        partial(_judge_setup, name="sensor_simulator",
+                programs=("temperature_publisher", "temperature_subscriber")),
+        title="two programs", points=2, hints=(
+        "Each program needs one string in the list of console scripts.",
+        "An entry consists of the name that you type after `ros2 run` and the package, an "
+        "equals sign, and the place of the code.",
+        "The place of the code is: the package, a dot, the file without .py, a colon, the "
+        "function.",
+        "Two entries are two strings: put quotes around each, and a comma after each.",
+    )),
+    Exercise("05b", look_at_workspace,
         partial(_judge_setup, name="lamp_control", programs=("lamp", "switch")),
-        title="repair a setup.py",
-        hints=(
-            "Hold each entry against the form executable = package.module:function, from left to "
-            "right, one character at a time.",
-            "Read the sections on what went wrong above once more: each of the four mistakes is "
-            "mentioned on this page.",
-        ),
-    ),
-)
+        title="repair a setup.py", hints=(
+        "Hold each entry against the form executable = package.module:function, from left to "
+        "right, one character at a time.",
+        "Read the sections on what went wrong above once more: each of the four mistakes is "
+        "mentioned on this page.",
+    )),
+)  # fmt: skip

@@ -210,29 +210,15 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "06a",
-        look_at_change,
-        _judge_change,
-        title="change the code",
-        hints=(
-            "`sed -i 's/old/new/' file` replaces the first text by the second one, wherever it is "
-            "in a line.",
-            "The new text ends with a number. Compare it with the text above, with its capital "
-            "letter and its space.",
-        ),
-    ),
-    Exercise(
-        "06b",
-        look_at_workspace,
-        _judge_links,
-        title="link instead of copy",
-        hints=(
-            ("colcon has an option for this, and its help lists the option's name."),
-            (
-                "The line above the cell searches that help for a word. An option "
-                "begins with two dashes."
-            ),
-        ),
-    ),
-)
+    Exercise("06a", look_at_change, _judge_change, title="change the code", hints=(
+        "`sed -i 's/old/new/' file` replaces the first text by the second one, wherever it is "
+        "in a line.",
+        "The new text ends with a number. Compare it with the text above, with its capital "
+        "letter and its space.",
+    )),
+    Exercise("06b", look_at_workspace, _judge_links, title="link instead of copy", hints=(
+        "colcon has an option for this, and its help lists the option's name.",
+        "The line above the cell searches that help for a word. An option begins with two "
+        "dashes.",
+    )),
+)  # fmt: skip

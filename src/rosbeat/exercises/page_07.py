@@ -266,20 +266,13 @@ def _malformed(house: Greenhouse, kind: str, value: Value) -> tuple[str, str] | 
     return "not-in-graph", said
 
 
-_FINDINGS = Exercise(
-    "07a",
-    report,
-    judge_findings,
-    "a system of strangers",
-    3,
-    (
-        ("Ask one question at a time, in the terminal `look`, and write down what you see."),
-        "ros2 topic info --verbose names both sides of a topic; ros2 topic hz counts; ros2 "
-        "param get reads; the field name of a log line names the node that logged it.",
-        "Terminals do not know the depth of a queue, but this kernel made the greenhouse: "
-        "for end in ros.graph().endpoints: print(end) shows it all.",
-    ),
-)
+_FINDINGS = Exercise("07a", report, judge_findings, "a system of strangers", 3, (
+    "Ask one question at a time, in the terminal `look`, and write down what you see.",
+    "ros2 topic info --verbose names both sides of a topic; ros2 topic hz counts; ros2 "
+    "param get reads; the field name of a log line names the node that logged it.",
+    "Terminals do not know the depth of a queue, but this kernel made the greenhouse: "
+    "for end in ros.graph().endpoints: print(end) shows it all.",
+))  # fmt: skip
 
 
 def _stripped(text: Value) -> str:
@@ -541,22 +534,12 @@ def _wrong_statuses(done: Track, fed: Tuning) -> Diagnosis | None:
     return diagnose(fed, done, _right(fed), wrong_ones, describe)
 
 
-_TUNING = Exercise(
-    "07b",
-    _observe_tuning,
-    _judge_tuning,
-    "limits that you can set",
-    2,
-    (
-        "A parameter is declared in the constructor, with its name and its first value.",
-        "get_parameter returns the parameter; its attribute `value` holds the number.",
-        (
-            "The constructor runs once, so a value that it gets there never "
-            "changes. The callback runs at each reading."
-        ),
-    ),
-    draw=draw_tuning,
-)
+_TUNING = Exercise("07b", _observe_tuning, _judge_tuning, "limits that you can set", 2, (
+    "A parameter is declared in the constructor, with its name and its first value.",
+    "get_parameter returns the parameter; its attribute `value` holds the number.",
+    "The constructor runs once, so a value that it gets there never changes. The callback runs "
+    "at each reading.",
+), draw=draw_tuning)  # fmt: skip
 
 # 07c: a node that listens to log lines.
 
@@ -780,19 +763,11 @@ def _wrong_texts(said: Track, lines: Lines, node: str) -> Diagnosis | None:
     return Diagnosis("alert-too-many", evidence, "One name for each line is enough.")
 
 
-_LOG_WATCHER = Exercise(
-    "07c",
-    _observe_log_watcher,
-    _judge_log_watcher,
-    "a log watcher",
-    3,
-    (
-        ("It's an alarm like the one on page 04, with another message type."),
-        "create_subscription takes Log, the topic, your method and a depth. The message has "
-        "the fields level, name and msg.",
-        ("Levels are numbers: the worse, the higher. Log.WARN is the number of a warning."),
-    ),
-    draw=draw_lines,
-)
+_LOG_WATCHER = Exercise("07c", _observe_log_watcher, _judge_log_watcher, "a log watcher", 3, (
+    "It's an alarm like the one on page 04, with another message type.",
+    "create_subscription takes Log, the topic, your method and a depth. The message has "
+    "the fields level, name and msg.",
+    "Levels are numbers: the worse, the higher. Log.WARN is the number of a warning.",
+), draw=draw_lines)  # fmt: skip
 
 EXERCISES: tuple[Exercise[Any], ...] = (_FINDINGS, _TUNING, _LOG_WATCHER)

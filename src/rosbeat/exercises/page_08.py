@@ -164,6 +164,7 @@ def _keep_mode(
 
 
 _REPEATED = "A command for the current mode changes nothing, so it needs no message."
+_UNASKED = "No command came then. What repeats the mode? The publisher stores it for late displays."
 _CHANGE = "A command for another mode is a change. Does your node keep it, and publish it?"
 _BEGIN = f"Publish {_START!r} in the constructor, as soon as there is something to publish with."
 _FIRST_MODE = f"Before the first command there is a mode, too: {_START!r}."
@@ -260,7 +261,8 @@ def _diagnose_modes(done: Track, commands: Commands) -> Diagnosis | None:
         if not mismatch.done:
             return Diagnosis("change-missing", evidence, _CHANGE)
         if set(mismatch.right) <= set(mismatch.done) <= set(modes[-2:]):
-            return Diagnosis("status-repeated", evidence, _REPEATED)
+            is_asked = mismatch.at in dict(commands.said)
+            return Diagnosis("status-repeated", evidence, _REPEATED if is_asked else _UNASKED)
         hint = spelling(mismatch.done[0], modes) or "The mode is the command's text, unchanged."
         return Diagnosis("wrong-values", evidence, hint)
 
@@ -628,7 +630,8 @@ def _describe_number(mismatch: Mismatch, late: float) -> Diagnosis:
     """Describe the first message that is not as it should be."""
     if not mismatch.done:
         ((due, wanted),) = mismatch.right
-        evidence = f"A deadline was missed at {due:g} s, the {_nth(wanted)} in a row, and nothing "
+        nth = {1: "first", 2: "second", 3: "third"}.get(wanted, f"{wanted}th")
+        evidence = f"A deadline was missed at {due:g} s, the {nth} in a row, and nothing "
         return Diagnosis("change-missing", f"{evidence}was published.", _EVENTS)
     ((at, number),) = mismatch.done
     evidence = f"Message {mismatch.at + 1} on /missed was {number}, at {at:g} s; "
@@ -641,10 +644,6 @@ def _describe_number(mismatch: Mismatch, late: float) -> Diagnosis:
     if at > due and number != wanted:
         return Diagnosis("change-missing", evidence, _EVENTS)
     return Diagnosis("wrong-deadline", evidence, _RESTART if at < due else _DUE)
-
-
-def _nth(number: int) -> str:
-    return {1: "first", 2: "second", 3: "third"}.get(number, f"{number}th")
 
 
 def _unmeasured(observation: Observation) -> Diagnosis | None:
@@ -674,7 +673,7 @@ def _unmeasured(observation: Observation) -> Diagnosis | None:
             "deadline-wrong-side",
             f"The publisher on {bounded['publisher'].name} has a deadline, and the subscription "
             "to /temperature has none.",
-            ("The node waits for readings. Which of its endpoints receives them?"),
+            "The node waits for readings. Which of its endpoints receives them?",
         )
     return Diagnosis(
         "no-deadline",
@@ -685,64 +684,27 @@ def _unmeasured(observation: Observation) -> Diagnosis | None:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "08a",
-        _run_mode_keeper,
-        _judge_mode_keeper,
-        "the current mode",
-        2,
-        (
-            (
-                "There are two questions: does a late-joining subscription get old "
-                "messages at all, and if so, how many? A policy answers the first, "
-                "and the depth answers the second."
-            ),
-            (
-                "QoSProfile(depth=..., durability=...) creates a profile. The "
-                "policies that you leave out keep their defaults, such as reliable."
-            ),
-            "In the callback, compare the command with self.mode, and do nothing if they are "
-            "the same.",
-        ),
-        draw=draw_commands,
-    ),
-    Exercise(
-        "08b",
-        _run_archive,
-        _judge_archive,
-        "listen to everybody",
-        2,
-        (
-            (
-                "There are two decisions: what can you ask for, so that no sensor is "
-                "left out? And how many readings have to wait?"
-            ),
-            (
-                "Ask for no more than the least that any sensor offers. The other "
-                "sensor offers more, and that's compatible."
-            ),
-            ("Both sensors fill the same queue. Count the readings of both in eight seconds."),
-        ),
-        draw=draw_sensors,
-    ),
-    Exercise(
-        "08c",
-        _run_watchdog,
-        _judge_watchdog,
-        "count missed deadlines",
-        3,
-        (
-            (
-                "You need three things: a deadline in the QoS of the subscription, a "
-                "callback for its event, and a variable that counts."
-            ),
-            (
-                "QoSProfile takes deadline=Duration(...). Pass the method, without "
-                "parentheses, as SubscriptionEventCallbacks(deadline=...)."
-            ),
-            "The event's total_count goes on from one silence to the next. Your own count begins "
-            "anew with each reading.",
-        ),
-        draw=draw_silences,
-    ),
-)
+    Exercise("08a", _run_mode_keeper, _judge_mode_keeper, "the current mode", 2, (
+        "There are two questions: does a late-joining subscription get old messages at all, "
+        "and if so, how many? A policy answers the first, and the depth answers the second.",
+        "QoSProfile(depth=..., durability=...) creates a profile. The policies that you leave "
+        "out keep their defaults, such as reliable.",
+        "In the callback, compare the command with self.mode, and do nothing if they are "
+        "the same.",
+    ), draw=draw_commands),
+    Exercise("08b", _run_archive, _judge_archive, "listen to everybody", 2, (
+        "There are two decisions: what can you ask for, so that no sensor is left out? And how "
+        "many readings have to wait?",
+        "Ask for no more than the least that any sensor offers. The other sensor offers more, "
+        "and that's compatible.",
+        "Both sensors fill the same queue. Count the readings of both in eight seconds.",
+    ), draw=draw_sensors),
+    Exercise("08c", _run_watchdog, _judge_watchdog, "count missed deadlines", 3, (
+        "You need three things: a deadline in the QoS of the subscription, a callback for its "
+        "event, and a variable that counts.",
+        "QoSProfile takes deadline=Duration(...). Pass the method, without parentheses, as "
+        "SubscriptionEventCallbacks(deadline=...).",
+        "The event's total_count goes on from one silence to the next. Your own count begins "
+        "anew with each reading.",
+    ), draw=draw_silences),
+)  # fmt: skip

@@ -136,8 +136,8 @@ SILENCE_SUSPECTS = suspects(
     ("silence-unnoticed", _UNSEEN, _watch(after=100.0)),
     ("silence-unnoticed", "The first silence was noticed, and the second was not. What does the "
      "node remember after `back`?", _watch(most=2)),
-    ("noticed-afterwards", ("The callback of a subscription runs when a message arrives. What "
-"runs when none arrives?"), _watch(at_once=True)),
+    ("noticed-afterwards", "The callback of a subscription runs when a message arrives. What runs "
+     "when none arrives?", _watch(at_once=True)),
     ("noticed-early", _COUNT, *(_watch(after=after) for after in (0.0, 1.5, 2.6))),
     ("noticed-late", _IN_TIME, _watch(after=5.0)),
 )  # fmt: skip
@@ -400,10 +400,10 @@ _WAITS = "An order that comes while another one is worked on has to wait somewhe
 _ONE_AT_A_TIME = f"Orders are done one after the other: the next {WORK:g} s begin when one is done."
 _FIRST_COME = "The order that came first is done first."
 WORK_SUSPECTS = suspects(
-    ("work-too-short", ("The timer keeps running: restart its period when the work on an "
-"order begins."), _free_running),
-    ("work-too-long", ("Each new order restarts the time. It should keep running for the "
-"order in progress."), _worker(restart=True)),
+    ("work-too-short", "The timer keeps running: restart its period when the work on an order "
+     "begins.", _free_running),
+    ("work-too-long", "Each new order restarts the time. It should keep running for the order in "
+     "progress.", _worker(restart=True)),
     ("work-at-once", _ONE_AT_A_TIME, _independent,
      _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
     ("order-lost", f"Only the newest order is kept. {_WAITS}",
@@ -850,66 +850,30 @@ def _wrong_form(observation: Observation, place: Place, said: _Said) -> Diagnosi
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "09a",
-        _run_with_silences,
-        _judge_silence,
-        "notice the silence",
-        3,
-        (
-            ("You need two callbacks: one for readings, and one that notices their absence."),
-            ("They share two facts: when the last reading came, and whether the sensor is lost."),
-            (
-                "self.get_clock().now() is a time, and subtracting two times gives a "
-                "duration, with nanoseconds. Or reset a timer at each reading."
-            ),
-            (
-                "Before the first reading, no sensor can be lost. Publish only when "
-                "the status you remember changes."
-            ),
-        ),
-        draw=draw_readings,
-    ),
-    Exercise(
-        "09b",
-        _run_with_orders,
-        _judge_work,
-        "work, and keep beating",
-        3,
-        (
-            ("No callback may take long: each one does a little, returns, and is called again."),
-            ("To wait, use timers. One of them can signal that the work on an order is done."),
-            (
-                "A list holds the waiting orders: append new ones at its end; the "
-                "first one is in progress."
-            ),
-            (
-                "cancel() stops a timer, and reset() starts its period again; "
-                "is_canceled() says whether it's stopped."
-            ),
-        ),
-        draw=draw_work,
-    ),
-    Exercise(
-        "09c",
-        _run_everywhere,
-        _judge_places,
-        "a monitor for any place",
-        3,
-        (
-            (
-                "Whatever differs from place to place comes from outside; the code "
-                "only provides the default."
-            ),
-            (
-                "Look at the sensor on this page: declare a parameter once, with its "
-                "default, and get its value by the same name."
-            ),
-            "A name without a slash in front is completed by the node's namespace, and can be "
-            "remapped there.",
-            "Decide first: above one limit, below the other, or neither. Then make one text of the "
-            "word, the reading and the unit.",
-        ),
-        draw=draw_places,
-    ),
-)
+    Exercise("09a", _run_with_silences, _judge_silence, "notice the silence", 3, (
+        "You need two callbacks: one for readings, and one that notices their absence.",
+        "They share two facts: when the last reading came, and whether the sensor is lost.",
+        "self.get_clock().now() is a time, and subtracting two times gives a duration, with "
+        "nanoseconds. Or reset a timer at each reading.",
+        "Before the first reading, no sensor can be lost. Publish only when the status you "
+        "remember changes.",
+    ), draw=draw_readings),
+    Exercise("09b", _run_with_orders, _judge_work, "work, and keep beating", 3, (
+        "No callback may take long: each one does a little, returns, and is called again.",
+        "To wait, use timers. One of them can signal that the work on an order is done.",
+        "A list holds the waiting orders: append new ones at its end; the first one is in "
+        "progress.",
+        "cancel() stops a timer, and reset() starts its period again; is_canceled() says "
+        "whether it's stopped.",
+    ), draw=draw_work),
+    Exercise("09c", _run_everywhere, _judge_places, "a monitor for any place", 3, (
+        "Whatever differs from place to place comes from outside; the code only provides the "
+        "default.",
+        "Look at the sensor on this page: declare a parameter once, with its default, and get "
+        "its value by the same name.",
+        "A name without a slash in front is completed by the node's namespace, and can be "
+        "remapped there.",
+        "Decide first: above one limit, below the other, or neither. Then make one text of the "
+        "word, the reading and the unit.",
+    ), draw=draw_places),
+)  # fmt: skip

@@ -152,10 +152,8 @@ def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
     return Diagnosis(
         "half-a-diagnosis",
         f"{listing(sorted(known))} is right, and it is not the only fault.",
-        (
-            "Imagine that this fault is fixed. Would the owner be satisfied? "
-            "Examine the rest of the system with the same instruments."
-        ),
+        "Imagine that this fault is fixed. Would the owner be satisfied? Examine the rest of the "
+        "system with the same instruments.",
     )
 
 
@@ -189,72 +187,35 @@ def _judge(patients: Sequence[int], seen: Report) -> Verdict:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "10a",
-        report,
-        partial(_judge, range(1, 5)),
-        "four patients, and something is silent",
-        2,
-        (
-            ("The owner says what is fine. Whatever those nodes need is fine, too: rule it out."),
-            "`ros.graph()` first: is every name as it was ordered, letter by letter? Then "
-            "`ros.explain(...)` of the topic on which the silence begins, seen from the sensor.",
-            (
-                "In ward 7: for patient 1, compare the graph with the order. For "
-                "patient 2, find out when each node started and when the message was "
-                "published, with `ros.logs()` and `ros.messages(...)`."
-            ),
-            (
-                "In ward 7: for patients 3 and 4, ask `ros.explain` about the topic "
-                "of the readings, and read only its first line."
-            ),
-        ),
-        tells_hints=True,
-    ),
-    Exercise(
-        "10b",
-        report,
-        partial(_judge, range(5, 9)),
-        "four patients, and nothing is silent",
-        3,
-        (
-            "All is well, says `ros.explain`: messages arrive. So look at what they say, how many "
-            "they are, and who sent them.",
-            "`viz.values` beside the order: limits, steps, rate. `ros.graph()` beside the order: "
-            "who is on which topic?",
-            (
-                "In ward 7: for patient 5, read one message of the sensor. On which "
-                "scale would that be a mild day? For patient 6, check which topic "
-                "each node subscribes to."
-            ),
-            (
-                "In ward 7: for patient 7, count the nodes. For patient 8, draw the "
-                "readings with the ordered limits as a band. How far outside the band"
-                " do they get?"
-            ),
-        ),
-        tells_hints=True,
-    ),
-    Exercise(
-        "10c",
-        report,
-        partial(_judge, range(9, 12)),
-        "three patients with two faults each",
-        4,
-        (
-            ("Find one fault, imagine that it's fixed, and begin again at the sensor."),
-            (
-                "The two faults are at different places. Go through the nodes one by "
-                "one: is it published, is it matched, is it taken, is the value "
-                "right?"
-            ),
-            (
-                "In ward 7: for patient 9, count the messages that each subscriber "
-                "has received, and look at the values. For patient 10, look at both "
-                "topics. For patient 11, look at the rate, and at which nodes are "
-                "still running."
-            ),
-        ),
-        tells_hints=True,
-    ),
-)
+    Exercise("10a", report, partial(_judge, range(1, 5)), "four patients, and something is silent",
+        2, (
+        "The owner says what is fine. Whatever those nodes need is fine, too: rule it out.",
+        "`ros.graph()` first: is every name as it was ordered, letter by letter? Then "
+        "`ros.explain(...)` of the topic on which the silence begins, seen from the sensor.",
+        "In ward 7: for patient 1, compare the graph with the order. For patient 2, find out "
+        "when each node started and when the message was published, with `ros.logs()` and "
+        "`ros.messages(...)`.",
+        "In ward 7: for patients 3 and 4, ask `ros.explain` about the topic of the readings, "
+        "and read only its first line.",
+    ), tells_hints=True),
+    Exercise("10b", report, partial(_judge, range(5, 9)), "four patients, and nothing is silent",
+        3, (
+        "All is well, says `ros.explain`: messages arrive. So look at what they say, how many "
+        "they are, and who sent them.",
+        "`viz.values` beside the order: limits, steps, rate. `ros.graph()` beside the order: "
+        "who is on which topic?",
+        "In ward 7: for patient 5, read one message of the sensor. On which scale would that "
+        "be a mild day? For patient 6, check which topic each node subscribes to.",
+        "In ward 7: for patient 7, count the nodes. For patient 8, draw the readings with the "
+        "ordered limits as a band. How far outside the band do they get?",
+    ), tells_hints=True),
+    Exercise("10c", report, partial(_judge, range(9, 12)), "three patients with two faults each",
+        4, (
+        "Find one fault, imagine that it's fixed, and begin again at the sensor.",
+        "The two faults are at different places. Go through the nodes one by one: is it "
+        "published, is it matched, is it taken, is the value right?",
+        "In ward 7: for patient 9, count the messages that each subscriber has received, and "
+        "look at the values. For patient 10, look at both topics. For patient 11, look at the "
+        "rate, and at which nodes are still running.",
+    ), tells_hints=True),
+)  # fmt: skip

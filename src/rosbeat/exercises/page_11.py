@@ -196,8 +196,7 @@ ASKED: dict[str, tuple[Callable[[_Readings], float], tuple[Suspect, ...]]] = {
     "mean": (lambda r: sum(_numbers(r)) / len(_numbers(r)), _findings(
         ("nan-spreads", "A sum that contains NaN is NaN. Leave NaN out before you add.",
          lambda r: sum(value for _, value in r) / len(r)),
-        ("wrong-share", ("If you leave a reading out of the sum, leave it out of the count, "
-"too."),
+        ("wrong-share", "If you leave a reading out of the sum, leave it out of the count, too.",
          lambda r: sum(_numbers(r)) / len(r)),
         ("other-mean", "A value that occurs twice counts twice, but a set holds it only once.",
          lambda r: sum(set(_numbers(r))) / len(set(_numbers(r)))),
@@ -264,10 +263,7 @@ def _diagnose_shape(seen: BagReports) -> Diagnosis | None:
             return Diagnosis(
                 "no-dict",
                 f"The function gave back a {one.type_name}.",
-                (
-                    "Return a dictionary in braces, as the cell shows, with a name before"
-                    " each number."
-                ),
+                "Return a dictionary in braces, as the cell shows, with a name before each number.",
             )
         absent = [key for key in ASKED if key not in one.value]
         if absent:
@@ -628,8 +624,8 @@ _NAN = (
     "function that asks for it."
 )
 _NAN_KEPT = (
-    "After a NaN, the node has stored NaN, and nothing is far from it or "
-    "equal to it. Which reading should it store instead?"
+    "After a NaN, the node has stored NaN, or nothing: no reading is far from that, or equal to "
+    "it. Which reading should it store instead?"
 )
 _FIRST = "What is the very first reading compared with? There's no reading before it."
 _BOTH = "A jump may go up or down. What is the sign of your difference?"
@@ -798,54 +794,25 @@ def _judge_test(seen: Report) -> Verdict:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "11a",
-        _look_into_bags,
-        _judge_bag_reports,
-        "look into a bag",
-        2,
-        (
-            "Each message has a time in seconds and a value. Make lists of them first.",
-            "zip(readings, readings[1:]) gives each message together with the next one.",
-            (
-                "Test for NaN with the function that page 11 shows, and keep only the"
-                " numbers in a list for the mean."
-            ),
-        ),
-        draw=draw_readings,
-    ),
-    Exercise(
-        "11b",
-        _replay,
-        _judge_alarms,
-        "notice a faulty sensor",
-        3,
-        (
-            (
-                "Test for NaN first. If the reading is NaN, leave everything else for"
-                " the next reading."
-            ),
-            "A jump is a difference, and its sign does not matter: abs takes it away. Before the "
-            "first reading there is nothing to compare with.",
-            (
-                "Count how many equal readings there were in a row. When does the "
-                "count start again? And at exactly which count do you publish?"
-            ),
-        ),
-        draw=draw_sick,
-    ),
-    Exercise(
-        "11c",
-        report,
-        _judge_test,
-        "test a watchdog",
-        3,
-        (
-            "Take one watchdog at a time. What does a correct watchdog do that this one doesn't, "
-            "and for which readings?",
-            "For B: which reading after NaN would a correct watchdog report?",
-            "For C: how many equal readings does it take until a correct watchdog has said "
-            "`stuck`? What does it say at the next one?",
-        ),
-    ),
-)
+    Exercise("11a", _look_into_bags, _judge_bag_reports, "look into a bag", 2, (
+        "Each message has a time in seconds and a value. Make lists of them first.",
+        "zip(readings, readings[1:]) gives each message together with the next one.",
+        "Test for NaN with the function that page 11 shows, and keep only the numbers in a "
+        "list for the mean.",
+    ), draw=draw_readings),
+    Exercise("11b", _replay, _judge_alarms, "notice a faulty sensor", 3, (
+        "Test for NaN first. If the reading is NaN, leave everything else for the next "
+        "reading.",
+        "A jump is a difference, and its sign does not matter: abs takes it away. Before the "
+        "first reading there is nothing to compare with.",
+        "Count how many equal readings there were in a row. When does the count start again? "
+        "And at exactly which count do you publish?",
+    ), draw=draw_sick),
+    Exercise("11c", report, _judge_test, "test a watchdog", 3, (
+        "Take one watchdog at a time. What does a correct watchdog do that this one doesn't, "
+        "and for which readings?",
+        "For B: which reading after NaN would a correct watchdog report?",
+        "For C: how many equal readings does it take until a correct watchdog has said "
+        "`stuck`? What does it say at the next one?",
+    )),
+)  # fmt: skip

@@ -345,8 +345,7 @@ NOT_VALIDATED = Suspect(
 )
 #: Monitors that are wrong about the first request at which they are not right.
 MONITORS = (
-    _suspect(
-        "boundary",
+    _suspect("boundary",
         "Above high is High, and below low is Low. A reading at the limit itself is Normal.",
         lambda one: not one.values,
         lambda one: {
@@ -354,63 +353,44 @@ MONITORS = (
                 "High" if value >= one.before.high else one.before.status(value)
                 for value in one.readings
             )
-        },
-    ),
-    _suspect(
-        "validated-one-by-one",
+        }),
+    _suspect("validated-one-by-one",
         "Both new values are in the list. Which of your comparisons still uses an old one?",
         lambda one: one.is_good and len(one.values) > 1,
-        lambda one: _reaction(one, False),
-    ),
-    _suspect(
-        "good-value-refused",
+        lambda one: _reaction(one, False)),
+    _suspect("good-value-refused",
         "Which of your conditions is true for this value? Are the limits themselves fine, and a "
         "value that is kept already?",
         lambda one: one.is_good and len(one.values) == 1,
-        lambda one: _reaction(one, False),
-    ),
-    _suspect(
-        "nan-accepted",
-        (
-            "With NaN, <, > and == are always False, so a test for bad values "
-            "lets it pass. What would a test for good values look like?"
-        ),
+        lambda one: _reaction(one, False)),
+    _suspect("nan-accepted",
+        "With NaN, <, > and == are always False, so a test for bad values lets it pass. What would "
+        "a test for good values look like?",
         _is_nan,
-        lambda one: _reaction(one, True),
-    ),
-    _suspect(
-        "nonsense-accepted",
+        lambda one: _reaction(one, True)),
+    _suspect("nonsense-accepted",
         "Print the values just before you compare them. If they are the new ones, look at the "
         "comparison. If they are not, check where each value comes from, and by which name.",
         lambda one: _is_nonsense(one) and not _is_nan(one),
-        lambda one: _reaction(one, True),
-    ),
-    _suspect(
-        "accepted-and-lost",
+        lambda one: _reaction(one, True)),
+    _suspect("accepted-and-lost",
         "Where do you keep the new value, and from where does the callback take it?",
         lambda one: one.is_good and bool(one.values),
-        lambda one: _reaction(one, True, one.before),
-    ),
-    _suspect(
-        "other-limits",
+        lambda one: _reaction(one, True, one.before)),
+    _suspect("other-limits",
         "The value that is kept has to be exactly the one that was asked for. Is it made a whole "
         "number on the way?",
         lambda one: one.is_good and bool(one.values),
-        lambda one: _reaction(one, True, Limits(one.asked.high // 1, one.asked.low // 1)),
-    ),
-    _suspect(
-        "refused-and-kept",
-        ("Check first, store afterwards: a refused value must not change anything."),
+        lambda one: _reaction(one, True, Limits(one.asked.high // 1, one.asked.low // 1))),
+    _suspect("refused-and-kept",
+        "Check first, store afterwards: a refused value must not change anything.",
         _is_nonsense,
-        lambda one: _reaction(one, False, one.asked),
-    ),
-    _suspect(
-        "reason-missing",
-        ("A client needs to know why it was refused: the response has a field for the reason."),
+        lambda one: _reaction(one, False, one.asked)),
+    _suspect("reason-missing",
+        "A client needs to know why it was refused: the response has a field for the reason.",
         _is_nonsense,
-        lambda one: _reaction(one, False, one.before, False),
-    ),
-)
+        lambda one: _reaction(one, False, one.before, False)),
+)  # fmt: skip
 
 # One after the other is a misunderstanding of two limits in one request. The readings before the
 # first request for parameters meet no limit.
@@ -743,50 +723,33 @@ _ALL_READ = "A result holds every temperature that was read since the goal came,
 #: What can be wrong with the decision about a goal, with the work, and with a cancel.
 DECISIONS = (
     _at("nonsense-accepted", _RANGE, Work.DECISION, "accepted", lambda goal: not goal.is_good),
-    _at(
-        "good-value-refused",
+    _at("good-value-refused",
         f"{_RANGE} Does it return one of the two GoalResponses on each way?",
-        Work.DECISION,
-        "rejected",
-        lambda goal: 10 < goal.order < 26,
-    ),
-    _at(
-        "boundary",
+        Work.DECISION, "rejected", lambda goal: 10 < goal.order < 26),
+    _at("boundary",
         "Goals from 10 to 26 make sense, 10 and 26 themselves included.",
-        Work.DECISION,
-        "rejected",
-        lambda goal: goal.order in (10, 26),
-    ),
-)
+        Work.DECISION, "rejected", lambda goal: goal.order in (10, 26)),
+)  # fmt: skip
 HEATERS = (
     *DECISIONS,
-    _at(
-        "never-switched-on",
+    _at("never-switched-on",
         "The room only gets warmer after a Bool that is True on /heater.",
-        Work.SWITCHED_ON, "no", lambda goal: goal.number == 1,
-    ),
-    _at(
-        "never-ends",
+        Work.SWITCHED_ON, "no", lambda goal: goal.number == 1),
+    _at("never-ends",
         "What makes the condition of the loop false? Print it in each round.",
-        Work.END, "never", _RUNS_ON,
-    ),
-    _at(
-        "wrong-state",
-        ("If the room is already warm enough, there's nothing to wait for."),
-        Work.END, "too late", lambda goal: goal.is_reached,
-    ),
-    _at(
-        "succeed-forgotten",
+        Work.END, "never", _RUNS_ON),
+    _at("wrong-state",
+        "If the room is already warm enough, there's nothing to wait for.",
+        Work.END, "too late", lambda goal: goal.is_reached),
+    _at("succeed-forgotten",
         "ROS regards a goal as aborted unless the work says how it ended. Which call says so?",
-        Work.STATUS, "ABORTED", _RUNS_ON,
-    ),
+        Work.STATUS, "ABORTED", _RUNS_ON),
     _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
     _at("result-wrong", "The result has a field for the temperatures, as the feedback has.",
         Work.DEGREES, "none"),
-    _at(
-        "ends-too-soon", "The work goes on as long as the room is colder than the target.",
-        Work.DEGREES, "too few", _RUNS_ON,
-    ),
+    _at("ends-too-soon",
+        "The work goes on as long as the room is colder than the target.",
+        Work.DEGREES, "too few", _RUNS_ON),
     _at("boundary", "The target itself is warm enough.",
         Work.DEGREES, "one too many", _RUNS_ON),
     _at("result-wrong", _ALL_READ, Work.DEGREES, "others"),
@@ -802,20 +765,15 @@ HEATERS = (
 )  # fmt: skip
 THERMOSTATS = (
     *HEATERS,
-    _at(
-        "cancel-refused",
+    _at("cancel-refused",
         "An action server refuses to cancel unless a callback of its own accepts.",
-        Work.CANCEL, "refused", _STOPPED,
-    ),
-    _at(
-        "cancel-ignored",
+        Work.CANCEL, "refused", _STOPPED),
+    _at("cancel-ignored",
         "Accepting a cancel is a promise: the work has to ask its goal handle in each round.",
-        Work.END, "too late", _STOPPED,
-    ),
-    _at(
-        "ends-too-soon", "Is anything left over from the previous goal?",
-        Work.END, "too soon", _STOPPED,
-    ),
+        Work.END, "too late", _STOPPED),
+    _at("ends-too-soon",
+        "Is anything left over from the previous goal?",
+        Work.END, "too soon", _STOPPED),
     _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _STOPPED),
     _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _STOPPED),
 )  # fmt: skip
@@ -1053,83 +1011,39 @@ def _blocked(seen: Observation, fed: Heating) -> Diagnosis | None:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "12a",
-        observe_service,
-        _judge_service,
-        "a threshold behind a service",
-        2,
-        (
-            "A service is made like a subscription: a type, a name, a callback. The callback is "
-            "handed a request and an empty response, fills the response, and gives it back.",
-            "Look before you keep: only a value that makes sense may become self.high. If you "
-            "refuse one, the response has a field for the reason, too.",
-            "Ask whether the value is good, and not whether it is bad: NaN is neither above nor "
-            "below anything.",
-        ),
-        draw=draw_service,
-    ),
-    Exercise(
-        "12b",
-        observe_parameters,
-        _judge_parameters,
-        "two limits that belong together",
-        3,
-        (
-            "The callback is handed a list of parameters, each with a name and a value. Not every "
-            "one has to be in the list: the others stay as they are.",
-            (
-                "Start with the current limits, replace those that are in the list, "
-                "and compare afterwards."
-            ),
-            "The result has two fields: successful and reason.",
-        ),
-        draw=draw_parameters,
-    ),
-    Exercise(
-        "12c",
-        observe_heating,
-        _judge_decisions,
-        "accept or reject a goal",
-        1,
-        (
-            "`decide` is handed the goal, and returns one of the two values of `GoalResponse`. "
-            "Compare it with the airing.",
-            "Python can compare a number with two limits at once. Are the limits themselves good?",
-        ),
-        draw=draw_decisions,
-    ),
-    Exercise(
-        "12d",
-        observe_heating,
-        _judge_heating,
-        "heat to a target",
-        2,
-        (
-            "Compare `heat` with the airing: what it counts in seconds, the thermostat reads in "
-            "degrees.",
-            "`await self.reading` gives the next temperature. Read, report, and go on while it is "
-            "too cold.",
-            "Switch the heater on before the loop, and off after it. The loop goes on while there "
-            "is no reading yet, or the newest one is below the target.",
-        ),
-        draw=draw_goals,
-    ),
-    Exercise(
-        "12e",
-        observe_heating,
-        _judge_thermostat,
-        "stop when it is canceled",
-        1,
-        (
-            "`agree` accepts the cancel, but that stops nothing yet: the work has to ask its goal "
-            "handle in each round.",
-            (
-                "Whatever ends the work, the heater has to be off afterwards: one "
-                "line after the loop covers both cases."
-            ),
-            ("End the goal with one of two calls. In both cases, return the result afterwards."),
-        ),
-        draw=draw_heating,
-    ),
-)
+    Exercise("12a", observe_service, _judge_service, "a threshold behind a service", 2, (
+        "A service is made like a subscription: a type, a name, a callback. The callback is "
+        "handed a request and an empty response, fills the response, and gives it back.",
+        "Look before you keep: only a value that makes sense may become self.high. If you "
+        "refuse one, the response has a field for the reason, too.",
+        "Ask whether the value is good, and not whether it is bad: NaN is neither above nor "
+        "below anything.",
+    ), draw=draw_service),
+    Exercise("12b", observe_parameters, _judge_parameters, "two limits that belong together", 3, (
+        "The callback is handed a list of parameters, each with a name and a value. Not every "
+        "one has to be in the list: the others stay as they are.",
+        "Start with the current limits, replace those that are in the list, and compare "
+        "afterwards.",
+        "The result has two fields: successful and reason.",
+    ), draw=draw_parameters),
+    Exercise("12c", observe_heating, _judge_decisions, "accept or reject a goal", 1, (
+        "`decide` is handed the goal, and returns one of the two values of `GoalResponse`. "
+        "Compare it with the airing.",
+        "Python can compare a number with two limits at once. Are the limits themselves good?",
+    ), draw=draw_decisions),
+    Exercise("12d", observe_heating, _judge_heating, "heat to a target", 2, (
+        "Compare `heat` with the airing: what it counts in seconds, the thermostat reads in "
+        "degrees.",
+        "`await self.reading` gives the next temperature. Read, report, and go on while it is "
+        "too cold.",
+        "Switch the heater on before the loop, and off after it. The loop goes on while there "
+        "is no reading yet, or the newest one is below the target.",
+    ), draw=draw_goals),
+    Exercise("12e", observe_heating, _judge_thermostat, "stop when it is canceled", 1, (
+        "`agree` accepts the cancel, but that stops nothing yet: the work has to ask its goal "
+        "handle in each round.",
+        "Whatever ends the work, the heater has to be off afterwards: one line after the loop "
+        "covers both cases.",
+        "End the goal with one of two calls. In both cases, return the result afterwards.",
+    ), draw=draw_heating),
+)  # fmt: skip

@@ -306,22 +306,17 @@ def _vent(is_open: Callable[[HeldTemperature], bool]) -> Callable[[HeldTemperatu
 
 #: Vents that are wrong about the first temperature at which they are not right.
 VENTS = suspects(
-    (
-        "boundary",
+    ("boundary",
         "A limit itself changes nothing: above means above, and below means below.",
-        _vent(lambda one: one.value >= one.opening or (one.was_open and one.value > one.closing)),
-    ),
-    (
-        "no-hysteresis",
+        _vent(lambda one: one.value >= one.opening or (one.was_open and one.value > one.closing))),
+    ("no-hysteresis",
         "Between the two limits the vent stays as it was. So the node has to remember that.",
-        _vent(lambda one: one.right != one.is_between),
-    ),
-    (
-        "wrong-state",
+        _vent(lambda one: one.right != one.is_between)),
+    ("wrong-state",
         "Above the upper limit it opens, below the lower one it closes. Which line decides that?",
-        _vent(lambda one: one.right == (one.is_between or one.value in (one.opening, one.closing))),
-    ),
-)
+        _vent(lambda one: one.right == (
+            one.is_between or one.value in (one.opening, one.closing)))),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -760,23 +755,15 @@ def _reporters(*rows: tuple[str, Callable[[Day, float], float]]) -> tuple[Suspec
 
 
 REPORTERS = _reporters(
-    (
-        "That is the mean of all readings since the start. What forgets the older ones?",
-        lambda day, time: _mean(_between(day.temperature, 0, time)),
-    ),
-    (
-        "That is the last reading alone. What collects the ones before it?",
-        lambda day, time: _between(day.temperature, 0, time)[-1],
-    ),
-    (
-        "That is the mean of the humidities. On which topic does the node collect?",
-        lambda day, time: _mean(_between(day.humidity, time - 10, time)),
-    ),
-    (
-        "That is the sum. By what does a mean divide it?",
-        lambda day, time: sum(_between(day.temperature, time - 10, time)),
-    ),
-)
+    ("That is the mean of all readings since the start. What forgets the older ones?",
+        lambda day, time: _mean(_between(day.temperature, 0, time))),
+    ("That is the last reading alone. What collects the ones before it?",
+        lambda day, time: _between(day.temperature, 0, time)[-1]),
+    ("That is the mean of the humidities. On which topic does the node collect?",
+        lambda day, time: _mean(_between(day.humidity, time - 10, time))),
+    ("That is the sum. By what does a mean divide it?",
+        lambda day, time: sum(_between(day.temperature, time - 10, time))),
+)  # fmt: skip
 
 
 def _judge_reports(trials: Trials, days: Weather) -> Diagnosis | None:
@@ -1097,53 +1084,21 @@ def _given() -> dict[str, Any]:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "13a",
-        observe_vent,
-        _judge_vent_alone,
-        "the vent alone",
-        3,
-        (
-            ("You wrote a node like this on page 04: the calm monitor. What does it remember?"),
-            (
-                "The new state depends on the temperature and on the old state. Test "
-                "for above and below; in between, nothing happens."
-            ),
-            (
-                "Store the last published command in a variable of the node, and "
-                "publish only a different one."
-            ),
-        ),
-        draw=draw_weather,
-        given=_given,
-    ),
-    Exercise(
-        "13b",
-        observe_greenhouse,
-        _judge_greenhouse,
-        "the whole greenhouse",
-        TOTAL,
-        (
-            (
-                "Do one requirement at a time, and run the check in between: it gives"
-                " points for each one that is met."
-            ),
-            (
-                "For the pump, draw its states: ready, running, resting. Which event "
-                "leads from one to the next, and when must it not?"
-            ),
-            (
-                "A silence doesn't trigger a callback. Let a timer check regularly "
-                "how long ago the last message was: self.get_clock().now() is the "
-                "time."
-            ),
-            (
-                "Where you check a reading is up to you: in each node, or in one node"
-                " that passes plausible readings on, on topics of its own. The second"
-                " way is shorter."
-            ),
-        ),
-        draw=draw_weather,
-        given=_given,
-    ),
-)
+    Exercise("13a", observe_vent, _judge_vent_alone, "the vent alone", 3, (
+        "You wrote a node like this on page 04: the calm monitor. What does it remember?",
+        "The new state depends on the temperature and on the old state. Test for above and "
+        "below; in between, nothing happens.",
+        "Store the last published command in a variable of the node, and publish only a "
+        "different one.",
+    ), draw=draw_weather, given=_given),
+    Exercise("13b", observe_greenhouse, _judge_greenhouse, "the whole greenhouse", TOTAL, (
+        "Do one requirement at a time, and run the check in between: it gives points for each "
+        "one that is met.",
+        "For the pump, draw its states: ready, running, resting. Which event leads from one to "
+        "the next, and when must it not?",
+        "A silence doesn't trigger a callback. Let a timer check regularly how long ago the "
+        "last message was: self.get_clock().now() is the time.",
+        "Where you check a reading is up to you: in each node, or in one node that passes "
+        "plausible readings on, on topics of its own. The second way is shorter.",
+    ), draw=draw_weather, given=_given),
+)  # fmt: skip

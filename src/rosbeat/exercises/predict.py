@@ -30,24 +30,15 @@ _SHRUG = re.compile(r"\bno (idea|clue|guess|opinion|prediction|answer)\b")
 _SMALL = (
     *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
     *("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen"),
-    "nineteen",
+    *("nineteen", "twenty"),
 )
-_TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
-_VALUES = {
-    **{word: number for number, word in enumerate(_SMALL)},
-    **{word: 10 * number for number, word in enumerate(_TENS, 2)},
-    **{"none": 0, "nothing": 0, "hundred": 100},
-}
+_VALUES = {word: number for number, word in enumerate(_SMALL)} | {"none": 0, "nothing": 0}
 # A digit that belongs to a name, as in `Float32`, is no number, and neither is a part of `1.2.3`.
 _DIGITS = (
     r"(?<!\w)(?<!\d\.)[-+]?(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d+(?:\.\d+)?|(?<!\.)\.\d+)"
     r"(?:e[-+]?\d+)?(?!\d|\.\d|[^\W\d]+\d)"
 )
-_WORDS = (
-    rf"\b(?:(?:(?:a|one)\s+)?hundred|(?:{'|'.join(_TENS)})(?:[\s-]+(?:{'|'.join(_SMALL[1:10])}))?"
-    rf"|{'|'.join(_SMALL)}|none|nothing)\b"
-)
-_NUMBER = re.compile(f"{_DIGITS}|{_WORDS}")
+_NUMBER = re.compile(rf"{_DIGITS}|\b(?:{'|'.join(_VALUES)})\b")
 #: What makes one number say something about many others.
 _BOUND = re.compile(
     r"[<>%\N{LESS-THAN OR EQUAL TO}\N{GREATER-THAN OR EQUAL TO}]|\d\+|n't\b"
@@ -74,7 +65,7 @@ def range_in(text: str) -> tuple[float, float] | None:
     """Return the lowest and the highest number that a text means; both are the same for one number.
 
     Args:
-        text: What somebody wrote, such as `63 messages`, `sixty-three`, `20-30`.
+        text: What somebody wrote, such as `63 messages`, `three`, `20-30`.
 
     Returns:
         None if it holds no number, or several that are no range.
@@ -104,9 +95,7 @@ def _value(said: str) -> float:
     """Return a number in digits or in words."""
     if any(sign.isdigit() for sign in said):
         return float(said.replace(",", ""))
-    parts = re.split(r"[\s-]+", said)
-    # `a hundred` and `one hundred` are the same.
-    return 100.0 if parts[-1] == "hundred" else float(sum(_VALUES[word] for word in parts))
+    return float(_VALUES[said])
 
 
 # Whether a guess and what happened are the same for a person, whatever their types are.
@@ -202,17 +191,14 @@ def _says_number(guess: object, happened: Real, tolerance: float) -> bool | None
 
 
 def _compared_all(guesses: list[object], happened: list[object], tolerance: float) -> bool | None:
-    if happened and guesses and not any(_is_like(one, happened[0]) for one in guesses):
-        return None
+    if happened and guesses:
+        first = _plain(happened[0])
+        if all(_compared(_plain(one), first, 0.0) is None for one in guesses):
+            return None
     return len(guesses) == len(happened) and all(
         _compared(_plain(one), _plain(other), tolerance) is True
         for one, other in zip(guesses, happened, strict=True)
     )
-
-
-def _is_like(guess: object, happened: object) -> bool:
-    """Return whether two elements can be compared at all."""
-    return _compared(_plain(guess), _plain(happened), 0.0) is not None
 
 
 def _parts(guess: object) -> list[object]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from functools import cache
@@ -333,7 +333,8 @@ def as_text() -> str:
     """Return the table of all pages, their exercises and the total."""
     standings = progress_file().standings()
     blocks = [(page.heading, [_row(one, standings) for one in page.exercises]) for page in PAGES]
-    widths = [max(map(len, column)) for column in zip(_HEAD, *_every(blocks), strict=True)]
+    every = [row for _, rows in blocks for row in rows]
+    widths = [max(map(len, column)) for column in zip(_HEAD, *every, strict=True)]
     lines = [_line(_HEAD, widths)]
     for title, rows in blocks:
         lines += ["", title, *(_line(row, widths) for row in rows)]
@@ -354,13 +355,11 @@ def as_data(standings: Standings) -> dict[str, Any]:
     rows = [
         {
             **{"exercise": one.id, "page": page.number, "title": one.title, "out_of": one.points},
-            **{
-                "status": _standing_of(one, standings).status,
-                **asdict(_standing_of(one, standings)),
-            },
+            **{"status": at.status, **asdict(at)},
         }
         for page in PAGES
         for one in page.exercises
+        for at in [standings.get(one.id, Standing())]
     ]
     return {
         "version": VERSION,
@@ -371,17 +370,8 @@ def as_data(standings: Standings) -> dict[str, Any]:
     }
 
 
-def _standing_of(exercise: Exercise[Any], standings: Standings) -> Standing:
-    return standings.get(exercise.id, Standing())
-
-
-def _every(blocks: list[tuple[str, list[_Row]]]) -> Iterator[_Row]:
-    for _, rows in blocks:
-        yield from rows
-
-
 def _row(exercise: Exercise[Any], standings: Standings) -> _Row:
-    at = _standing_of(exercise, standings)
+    at = standings.get(exercise.id, Standing())
     sign, word = LOOKS[at.status]
     hints = f"{at.hints} and the answer" if at.answer else str(at.hints)
     points = f"{at.points} of {exercise.points}"

@@ -71,47 +71,22 @@ PAGES = (
     Page("02", "Create a package", page_02.EXERCISES, "02_create_a_package", 30, ("00", "01")),
     Page("03", "Write a publisher", page_03.EXERCISES, "03_write_a_publisher", 40, ("00", "02")),
     Page("04", "Write a subscriber", page_04.EXERCISES, "04_write_a_subscriber", 40, ("00", "03")),
-    Page(
-        "05",
-        "Set the entry points",
-        page_05.EXERCISES,
-        "05_set_the_entry_points",
-        30,
-        ("02", "03", "04"),
-    ),
+    Page("05", "Set the entry points", page_05.EXERCISES, "05_set_the_entry_points", 30,
+        ("02", "03", "04")),
     Page("06", "Build, source, run", page_06.EXERCISES, "06_build_source_run", 35, ("05",)),
-    Page(
-        "07",
-        "Look inside the graph",
-        page_07.EXERCISES,
-        "07_look_inside_the_graph",
-        45,
-        ("00", "04", "06"),
-    ),
-    Page(
-        "08",
-        "Tune quality of service",
-        page_08.EXERCISES,
-        "08_tune_quality_of_service",
-        45,
-        ("04", "07"),
-    ),
-    Page(
-        "09", "Test the five claims", page_09.EXERCISES, "09_test_the_five_claims", 50, ("04", "06")
-    ),
+    Page("07", "Look inside the graph", page_07.EXERCISES, "07_look_inside_the_graph", 45,
+        ("00", "04", "06")),
+    Page("08", "Tune quality of service", page_08.EXERCISES, "08_tune_quality_of_service", 45,
+        ("04", "07")),
+    Page("09", "Test the five claims", page_09.EXERCISES, "09_test_the_five_claims", 50,
+        ("04", "06")),
     Page("10", "Find the fault", page_10.EXERCISES, "10_find_the_fault", 60, ("04", "07", "08")),
     Page("11", "Record and replay", page_11.EXERCISES, "11_record_and_replay", 45, ("04", "07")),
     Page("12", "Go beyond topics", page_12.EXERCISES, "12_beyond_topics", 50, ("04", "07")),
-    Page(
-        "13",
-        "Build your own",
-        page_13.EXERCISES,
-        "13_build_your_own",
-        100,
-        ("04", "07", "08", "09"),
-    ),
+    Page("13", "Build your own", page_13.EXERCISES, "13_build_your_own", 100,
+        ("04", "07", "08", "09")),
     Page("", "The whole system", system.EXERCISES, "06_build_source_run", 0, ("06",)),
-)
+)  # fmt: skip
 
 EXERCISES: dict[str, Exercise[Any]] = {
     exercise.id: exercise for page in PAGES for exercise in page.exercises

@@ -235,9 +235,10 @@ def look_at_workspace(answer: Answer) -> Workspace:
         raise ExerciseError(
             f"There is no workspace at {root or repr(answer)}.",
             "This check examines the folders of your workspace.",
-            ("Write workspace.folder(), and run the cells above first: they create the workspace."),
+            "Write workspace.folder(), and run the cells above first: they create the workspace.",
         )
-    found = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
+    read = (read_package(folder, root) for folder in find_packages(root))
+    found = [replace(one, folder=one.folder.relative_to(root)) for one in read]
     # Of two with one name, the one in src under that name counts; a backup has its name, too.
     packages = sorted(found, key=lambda one: one.folder.as_posix() == f"src/{one.name}")
     return Workspace(_folders(root), {package.name: package for package in packages})
@@ -306,35 +307,6 @@ def typed_about(
     return typed, meaning
 
 
-def terminal_folders(root: Path) -> tuple[str, ...]:
-    """Return the folders that the terminals of this page are in.
-
-    Args:
-        root: The workspace.
-
-    Returns:
-        Each folder, relative to the workspace; absolute if that is outside.
-    """
-    return tuple(_inside(Path(one.folder), root) for one in page_terminals())
-
-
-def leave_first(folder: str, standing: Iterable[str]) -> str:
-    """Say how to leave a folder before it is removed.
-
-    Args:
-        folder: The folder that is to be removed, relative to the workspace.
-        standing: The folders that terminals are in; see `terminal_folders`.
-
-    Returns:
-        A sentence and a space; an empty text if no terminal is in the folder.
-    """
-    for place in standing:
-        if f"{place}/".startswith(f"{folder}/"):
-            up = "/".join([".."] * (place.count("/") - folder.count("/") + 1))
-            return f"A terminal is in {folder}: leave the folder first, with `cd {up}`. "
-    return ""
-
-
 def meaning_of(
     command: str, output: str, code: int, folder: Path, root: Path
 ) -> CommandMeaning | None:
@@ -364,10 +336,6 @@ def _folders(root: Path) -> tuple[str, ...]:
     found = (path.relative_to(root) for path in root.rglob("*")
              if path.is_dir() and not path.is_symlink())  # fmt: skip
     return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in _BUILT))
-
-
-def _relative(package: Package, root: Path) -> Package:
-    return replace(package, folder=package.folder.relative_to(root))
 
 
 def _inside(folder: Path, root: Path) -> str:

@@ -15,15 +15,15 @@ import os
 import re
 import stat
 import time
-from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from queue import Full, Queue
 from secrets import token_hex
 from textwrap import fill
-from threading import Lock, Thread
+from threading import Thread
 
 from rosbeat.errors import CommandError, RecordError
 from rosbeat.exercises.exercise import NOT_ATTEMPTED
@@ -94,8 +94,9 @@ def share(outcome: Outcome, now: Callable[[], float] = time.time) -> None:
         return
     agreed = consent()
     if agreed is not None:
-        with suppress(RuntimeError):  # no thread can be started; the check counts all the same
-            _writer().add(lambda: append(agreed, outcome, now()))
+        # Where no thread can be started, or too much waits, the check counts all the same.
+        with suppress(RuntimeError, Full):
+            _writer().put_nowait(lambda: append(agreed, outcome, now()))
 
 
 def append(agreed: Consent, outcome: Outcome, now: float) -> None:
@@ -169,40 +170,24 @@ def _time_of(line: bytes) -> float:
         return 0.0
 
 
-class _Writer:
-    """Write in a thread, one line after the other, so that nobody waits for a slow folder."""
+@cache
+def _writer() -> Queue[Callable[[], None]]:
+    """Return what a thread does, one work after the other, so that nobody waits for a slow folder.
 
-    def __init__(self) -> None:
-        self._lock = Lock()
-        self._waiting: deque[Callable[[], None]] = deque(maxlen=_MOST_WAITING)
-        self._is_running = False
+    Raises:
+        RuntimeError: If no thread can be started.
+    """
+    waiting: Queue[Callable[[], None]] = Queue(_MOST_WAITING)
 
-    def add(self, work: Callable[[], None]) -> None:
-        """Do some work soon; if too much waits, the oldest is dropped.
-
-        Raises:
-            RuntimeError: If there is no thread and none can be started.
-        """
-        with self._lock:
-            self._waiting.append(work)
-            if not self._is_running:
-                Thread(target=self._run, name="rosbeat share", daemon=True).start()
-                self._is_running = True
-
-    def _run(self) -> None:
+    def run() -> None:
         while True:
-            with self._lock:
-                if not self._waiting:
-                    self._is_running = False
-                    return
-                work = self._waiting.popleft()
+            work = waiting.get()
             with suppress(OSError):
                 work()
+            waiting.task_done()
 
-
-@cache
-def _writer() -> _Writer:
-    return _Writer()
+    Thread(target=run, name="rosbeat share", daemon=True).start()
+    return waiting
 
 
 # `rosbeat share`.

@@ -525,17 +525,9 @@ def _draw(seen: SystemRun) -> Picture | None:
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        ID,
-        run_system,
-        _judge,
-        picture=_draw,
-        title="the whole system",
-        points=5,
-        hints=(
-            "The check does what page 06 does: it builds the package and runs both programs.",
-            "Do the same in two terminals, and look at what they print, line by line.",
-            "End each program with Ctrl+C, and type echo $? then: a clean end is 0.",
-        ),
-    ),
-)
+    Exercise(ID, run_system, _judge, picture=_draw, title="the whole system", points=5, hints=(
+        "The check does what page 06 does: it builds the package and runs both programs.",
+        "Do the same in two terminals, and look at what they print, line by line.",
+        "End each program with Ctrl+C, and type echo $? then: a clean end is 0.",
+    )),
+)  # fmt: skip

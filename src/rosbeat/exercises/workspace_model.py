@@ -63,7 +63,7 @@ def diagnose_script(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "no-setup-call",
             f"setup.py cannot be used: {setup.problem}.",
-            ("setup(...) has to be called when the file is run, without indentation."),
+            "setup(...) has to be called when the file is run, without indentation.",
         )
     if setup.problem and not setup.line and "No such file" in setup.problem:
         hint = "Run the cell above again: it writes the file."
@@ -73,10 +73,7 @@ def diagnose_script(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "syntax-error",
             f"setup.py cannot be read: {setup.problem}{where}.",
-            (
-                "Each entry is a string in quotes, with a comma after it, inside the "
-                "square brackets."
-            ),
+            "Each entry is a string in quotes, with a comma after it, inside the square brackets.",
         )
     if setup.misspelled_group:
         return Diagnosis(

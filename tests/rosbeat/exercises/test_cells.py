@@ -82,10 +82,6 @@ def test_a_cell_that_failed_gets_no_verdict_for_what_was_there_before(page, late
     assert page(("", counted)).text == "{}\n"
 
 
-def test_a_class_of_the_page_is_not_taken_for_that_of_a_cell_that_failed(page):
-    assert refused(page((SCRATCH, RIGHT), (EXERCISE, BROKEN), (CHECK, ASK)))
-
-
 def test_another_name_is_told(page):
     reply = page((EXERCISE, RIGHT), (EXERCISE, OTHER_NAME), (CHECK, ASK))
     assert refused(reply)
@@ -96,11 +92,6 @@ def test_another_name_is_told(page):
 def test_a_blank_is_named_and_nothing_from_before_is_judged(page):
     reply = page((EXERCISE, RIGHT), (EXERCISE, BLANK), (CHECK, ASK))
     assert reply.text.startswith("not attempted There is still a blank, ____,")
-
-
-def test_what_was_mended_is_judged_again(page):
-    reply = page((EXERCISE, RIGHT), (EXERCISE, BROKEN), (EXERCISE, RIGHT), (CHECK, ASK))
-    assert reply.text.startswith("passed")
 
 
 # What is not stopped.
@@ -139,13 +130,6 @@ def test_a_copy_that_failed_and_was_deleted_is_forgotten(page):
     assert page((CHECK, ASK)).text.startswith("passed")
 
 
-def test_a_cell_that_failed_in_another_exercise_stops_nothing(page):
-    page((EXERCISE, RIGHT), (SCRATCH, BROKEN.replace("HumiditySensor", "Alarm")),
-         rosbeat={"exercise": "04b"})  # fmt: skip
-    page((EXERCISE, RIGHT))
-    assert page((CHECK, ASK)).text.startswith("passed")
-
-
 # Files of the workspace.
 
 SAVE = "%%save src/sensor_simulator/sensor_simulator/helper.py\n"
@@ -162,11 +146,6 @@ def test_a_file_that_was_not_saved_gets_no_verdict(page):
     assert "The cell above did not save helper.py (Nothing was saved:" in reply.trace
     page((SCRATCH, SAVE + "x = ____\n"), **marks)
     assert page((CHECK, LOOK)).text.startswith("not attempted There is still a blank")
-
-
-def test_a_file_that_was_saved_is_judged_whatever_it_raises_on_the_page(page):
-    page((SCRATCH, SAVE + "1 / 0\n"), rosbeat={"exercise": "02b"})
-    assert not refused(page((CHECK, LOOK)))
 
 
 def test_a_file_that_was_changed_by_hand_later_is_judged(page, tmp_path):
@@ -259,11 +238,6 @@ def test_a_second_interrupt_while_the_first_is_handled_changes_nothing(page):
     said = page(("", INTERRUPTS)).text
     assert "You stopped it." in said
     assert said.endswith("\nTrue\n")
-
-
-def test_an_answer_that_comes_out_of_a_list_can_be_judged_again(page):
-    page((EXERCISE, SHALLOW), (CHECK, 'check("03a", *[HumiditySensor])'), ("", PRESS))
-    assert "False" in page(("", "press('again')")).text
 
 
 # Nothing said means what was worked on last.

@@ -6,7 +6,7 @@ import pytest
 
 from parsed_html import Parsed
 from rosbeat.exercises import highlighting
-from rosbeat.exercises.cards import code, words
+from rosbeat.exercises.cards import EDGES, words
 from rosbeat.exercises.highlighting import highlighted
 
 PYTHON = 'def tick(self):\n    return f"{self.count} <b>"  # 3 of `5`\n'
@@ -46,6 +46,11 @@ def test_code_can_be_read_on_light_and_dark_pages(name):
     assert contrast(dark, "#111111") >= 4.5
 
 
+@pytest.mark.parametrize("page", ["#ffffff", "#111111", "#1e1e1e"])
+def test_the_edge_of_a_card_is_seen_on_light_and_dark_pages(page):
+    assert min(contrast(edge, page) for edge in EDGES.values()) >= 3
+
+
 @pytest.mark.parametrize("name", CELLS)
 def test_code_has_colours_and_its_text_stays(name):
     html = highlighted(CELLS[name])
@@ -66,7 +71,3 @@ def test_no_backquote_is_left_in_a_sentence():
     assert Parsed(html).text == "Write self.count += 1, or run ros2 topic list."
     assert len(re.findall("<code>", html)) == 2
     assert words("a `b", "strong") == "<strong>a `b</strong>"
-
-
-def test_a_program_keeps_its_shape():
-    assert code("a <b>\n  c") == "<pre>a &lt;b&gt;\n  c</pre>"

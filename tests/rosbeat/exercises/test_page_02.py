@@ -1,7 +1,6 @@
 """Page 02: what the bank of answers cannot show of manifests and packages."""
 
 import re
-from dataclasses import replace
 
 import pytest
 from catkin_pkg.package import InvalidPackage, parse_package_string
@@ -28,16 +27,6 @@ def judged(tmp_path):
     return judge
 
 
-def test_no_package_is_nothing_tried(tmp_path):
-    for exercise in EXERCISES:
-        assert exercise.judged(exercise.scenario(tmp_path)).status == "not attempted"
-
-
-def test_a_backup_of_the_package_is_not_the_package(judged):
-    judged(re.sub("<description>.*<", "<description>TODO<", XML), "sensor_simulator_backup")
-    assert judged(XML).status == "passed"
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -54,36 +43,6 @@ def test_a_licence_that_programs_do_not_know_gets_a_remark(judged, text, said):
     assert outcome.status == "passed"
     assert len(outcome.remarks) == bool(said)
     assert said in "".join(outcome.remarks)
-
-
-@pytest.mark.parametrize(
-    ("folder", "has_manifest", "advice"),
-    [
-        ("room_display", True, "Remove it there"),
-        ("src/sensor_simulator/room_display", True, "Remove it there"),
-        ("src/room_display", False, "Remove the folder first"),
-        ("src/rom_display", True, "Remove the folder (rm -r) of rom_display"),
-        ("src/room_display", True, "Remove the folder (rm -r src/room_display)"),
-    ],
-)
-def test_a_package_that_a_terminal_is_in_is_left_before_it_is_removed(
-    tmp_path, folder, has_manifest, advice
-):
-    place = tmp_path / folder
-    (place / "inner").mkdir(parents=True)
-    if has_manifest:
-        text = XML.replace("<name>sensor_simulator<", f"<name>{place.name}<")
-        (place / "package.xml").write_text(text)
-    seen = second_02b.scenario(tmp_path)
-    assert seen.standing == ()
-    assert "A terminal is in" not in second_02b.judged(seen).hint
-    hint = second_02b.judged(replace(seen, standing=(f"{folder}/inner",))).hint
-    assert f"A terminal is in {folder}: leave the folder first, with `cd ../..`. {advice}" in hint
-
-
-@pytest.mark.parametrize(("text", "hint"), [(f"\n{XML}", "very first line"), (XML[:-9], "</tag>")])
-def test_xml_that_cannot_be_read_has_two_hints(judged, text, hint):
-    assert hint in judged(text).hint
 
 
 @pytest.mark.parametrize(

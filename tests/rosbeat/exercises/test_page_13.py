@@ -3,7 +3,6 @@
 import json
 from importlib.resources import files
 from itertools import combinations
-from math import isfinite
 from pathlib import Path
 
 import answers  # the folder is put on the path by conftest.py
@@ -13,10 +12,8 @@ from std_msgs.msg import Float32
 
 from bank.pages import solution
 from bank.running import outcome_of
-from rosbeat import Session
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import greenhouse
-from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.greenhouse import (
     BROKEN,
@@ -35,13 +32,11 @@ from rosbeat.exercises.greenhouse import (
 )
 from rosbeat.exercises.model import agree
 from rosbeat.exercises.page_13 import (
-    FORGETFUL,
     JUDGES,
     REPORTERS,
     VENTS,
     Reports,
     Switch,
-    Temperatures,
     Trials,
     held_temperatures,
     is_near,
@@ -86,21 +81,6 @@ def test_another_one_may_be_named(monkeypatch, tmp_path):
     monkeypatch.setenv(SETTING, str(path))
     assert "above 31.5 " in read_rubric().requirements[0].text
     assert "above 31.5 " in str(requirements("R1"))
-
-
-def test_one_that_is_not_there_is_refused(monkeypatch, tmp_path, says):
-    monkeypatch.setenv(SETTING, str(tmp_path / "none.json"))
-    with pytest.raises(ExerciseError) as caught:
-        read_rubric()
-    says(caught.value, "none.json", SETTING)
-
-
-def test_a_requirement_may_be_left_out_if_the_points_are_given_to_others():
-    def edit(data):
-        data["requirements"].pop()
-        data["requirements"][0]["points"] += 1
-
-    assert len(parse_rubric(changed(edit), "x").requirements) == len(KNOWN) - 1
 
 
 @pytest.mark.parametrize(
@@ -172,13 +152,6 @@ def test_both_sensors_have_a_reading_or_a_silence_for_each_second(make, numbers)
         assert sorted(day.marks.values()) == list(day.marks.values())
 
 
-def test_days_differ_from_seed_to_seed():
-    for make in DAYS:
-        assert make(USUAL) == make(USUAL, PAGE)
-    days = [[make(USUAL, seed) for make in DAYS] for seed in SEEDS]
-    assert len({repr(one) for one in days}) == len(SEEDS)
-
-
 @pytest.mark.parametrize("numbers", [USUAL, OTHERS], ids=["usual", "others"])
 def test_the_vent_is_tried_on_every_side_of_both_limits_and_has_time(numbers):
     limits = numbers["open_above"], numbers["close_below"]
@@ -194,37 +167,7 @@ def test_the_vent_is_tried_on_every_side_of_both_limits_and_has_time(numbers):
             assert ends - begins > numbers["react_seconds"]
 
 
-def test_a_broken_day_has_nonsense_and_two_silences_longer_than_a_report():
-    day = greenhouse.broken_day(USUAL)
-    nonsense = [one for one in day.temperature if one is not None and not -20 <= one <= 60]
-    assert [isfinite(one) for one in nonsense].count(False) == 4
-    assert len(nonsense) == 6
-    silent = [at for at, one in enumerate(day.temperature, 1) if one is None]
-    both = [at for at, one in enumerate(day.humidity, 1) if one is None]
-    assert (silent[0], both[0]) == (day.marks["temperature silent"], day.marks["both silent"])
-    assert len(silent) == 2 * len(both) == 2 * (2 * 10 + 1)
-
-
-def test_only_other_limits_mean_anything_on_the_last_day():
-    for seed in SEEDS:
-        day, other = greenhouse.other_day(USUAL, seed), greenhouse.other_limits(USUAL, seed)
-        assert other["open_above"] < max(day.temperature) <= USUAL["open_above"]
-        assert USUAL["dry_below"] < min(day.humidity) < other["dry_below"]
-
-
 # What a page shows.
-
-
-def test_every_requirement_is_shown_with_its_points():
-    shown = requirements()
-    html, text = shown.html(), " ".join(str(shown).split())
-    assert repr(shown) == str(shown)
-    for one in read_rubric().requirements:
-        assert one.text in text
-        assert f"<td>{one.id}</td>" in html
-    assert "<td>1,&nbsp;optional</td>" in html  # on one line
-    assert "(1, optional)" in text
-    assert set(shown._repr_mimebundle_()) == {"text/plain", "text/html"}
 
 
 def test_requirements_and_days_are_chosen_by_name(says):
@@ -234,18 +177,6 @@ def test_requirements_and_days_are_chosen_by_name(says):
     with pytest.raises(ExerciseError) as caught:
         weather("snow")
     says(caught.value, "snow", "plain day")
-
-
-@pytest.mark.ros
-def test_the_weather_is_two_sensors_that_may_be_silent():
-    with Session() as ros:
-        for sensor in weather(temperature=[20.0, None, 21.5]):
-            ros.add(sensor)
-        ros.run(seconds=5)
-        said = [(one.time, one.value) for one in ros.messages("temperature")]
-        assert said == [(1.0, 20.0), (3.0, 21.5)]
-        assert ros.messages("humidity") == ()
-        assert [node.get_name() for node in ros.nodes] == ["thermometer", "hygrometer"]
 
 
 def test_the_page_names_the_numbers_of_the_rubric():
@@ -284,13 +215,6 @@ def test_the_plain_day_tells_vents_from_the_right_one_and_from_each_other():
         )
 
 
-def test_a_pump_that_waits_for_a_tick_is_never_right_by_chance():
-    for seed in SEEDS:
-        start = greenhouse.plain_day(USUAL, seed).marks["dry"]
-        for period in (5, 9):
-            assert period - start % period not in (4, 5, 6)
-
-
 @pytest.mark.parametrize("numbers", [USUAL, OTHERS], ids=["usual", "others"])
 def test_a_drought_outlasts_the_longest_rest_that_is_allowed(numbers):
     for seed in SEEDS:
@@ -301,13 +225,6 @@ def test_a_drought_outlasts_the_longest_rest_that_is_allowed(numbers):
         )
         dry = day.humidity[day.marks["dry"] - 1 : day.marks["wet"] - 1]
         assert set(dry) == {greenhouse.air(numbers, seed).dry, None}
-
-
-def test_a_vent_that_remembers_nothing_gives_one_command_again_and_again():
-    fed = Temperatures((29.0, None, 29.0, 27.0, 25.0, 28.0, 26.0), 28.0, 26.0)
-    closed, opened = (one.model(fed) for one in FORGETFUL)
-    assert closed == {1: (True,), 3: (True,)}
-    assert opened == {5: (False,)}
 
 
 def test_the_plain_day_tells_reports_from_the_right_one_and_from_each_other():
@@ -353,15 +270,6 @@ def raised(kind, text, callback="__init__", node=""):
     return trials(
         Observation(0, 0, faults=(fault,), graph=EMPTY.graph if node else GraphSnapshot())
     )
-
-
-def test_a_silent_greenhouse_meets_no_requirement():
-    outcome = EXERCISES["13b"].judged(trials())
-    assert (outcome.status, outcome.mistake) == ("failed", "no-publisher")
-    assert (outcome.points, outcome.out_of) == (0, TOTAL)
-    assert [part.met for part in outcome.parts] == [False] * len(KNOWN)
-    assert all(part.evidence for part in outcome.parts)
-    assert outcome.evidence.startswith("0 of 11")
 
 
 @pytest.mark.parametrize(
@@ -417,30 +325,22 @@ def test_a_system_goes_through_every_trial_and_something_else_through_one():
 
 
 @pytest.mark.ros
-def test_an_adjusted_rubric_judges_by_its_own_numbers(monkeypatch, tmp_path):
-    own = files("rosbeat.exercises").joinpath("rubrics/greenhouse.json").read_text()
-    numbers = {'"open_above": 28.0': '"open_above": 31.5', '"pump_seconds": 5': '"pump_seconds": 8'}
-    for old, new in numbers.items():
-        own = own.replace(old, new)
-    path = tmp_path / "mine.json"
-    path.write_text(own.replace("The pump does not run", "Never runs the pump"))
-    monkeypatch.setenv("ROSBEAT_RUBRIC", str(path))
-    usual = outcome_of("13b", solution("13b"), "greenhouse")
-    assert {part.id for part in usual.parts if not part.met} >= {"R1", "R2"}
-    text = answers.edited(solution("13b"), ("28.0", "31.5"), ("timer(5.0", "timer(8.0"))
-    adjusted = outcome_of("13b", text, "greenhouse")
-    assert (adjusted.status, adjusted.points) == ("passed", 20)
-    assert "Never runs the pump" in adjusted.parts[2].text
-
-
-@pytest.mark.ros
-def test_a_temperature_of_zero_is_in_the_mean(monkeypatch, tmp_path):
-    own = files("rosbeat.exercises").joinpath("rubrics/greenhouse.json").read_text()
-    numbers = (("28.0", "6.0"), ("26.0", "4.0"), ("-20.0", "-60.0"))
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        [("28.0", "31.5"), ("timer(5.0", "timer(8.0")],
+        [("28.0", "6.0"), ("26.0", "4.0"), ("-20.0", "-60.0")],  # a mean may be 0
+    ],
+    ids=["warmer", "cold"],
+)
+def test_an_adjusted_rubric_judges_by_its_own_numbers(monkeypatch, tmp_path, numbers):
+    rubric = OWN.replace('"pump_seconds": 5', '"pump_seconds": 8') if len(numbers) == 2 else OWN
     for old, new in numbers:
-        own = own.replace(old, new)
-    path = tmp_path / "cold.json"
-    path.write_text(own, encoding="utf-8-sig")
-    monkeypatch.setenv("ROSBEAT_RUBRIC", str(path))
-    judged = outcome_of("13b", answers.edited(solution("13b"), *numbers), "greenhouse")
-    assert (judged.status, judged.points) == ("passed", 20)
+        rubric = rubric.replace(f": {old}", f": {new}")
+    path = tmp_path / "mine.json"
+    path.write_text(rubric, encoding="utf-8-sig")
+    monkeypatch.setenv(SETTING, str(path))
+    usual = outcome_of("13b", solution("13b"), "greenhouse")
+    assert "R1" in {part.id for part in usual.parts if not part.met}
+    adjusted = outcome_of("13b", answers.edited(solution("13b"), *numbers), "greenhouse")
+    assert (adjusted.status, adjusted.points) == ("passed", TOTAL)

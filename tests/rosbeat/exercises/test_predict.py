@@ -6,50 +6,32 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosbeat import predict
-from rosbeat.exercises.predict import (
-    agree,
-    compared,
-    form_of,
-    in_words,
-    is_blank,
-    range_in,
-    truth_in,
-)
+from rosbeat.exercises.predict import agree, compared, in_words, is_blank, range_in, truth_in
 
 BECAUSE = "The first one comes after a full period."
+SHOWN = [
+    (("____", 63), "○ No prediction yet. It was 63."),
+    (("63", 63), f"✓ You predicted 63, and it was 63.\n  {BECAUSE}"),
+    ((60, 63), f"✗ You predicted 60, and it was 63. Look at why.\n  {BECAUSE}"),
+    (("20-30", 26), f"✓ You predicted 20-30, and it was 26.\n  {BECAUSE}"),
+    (("?", 63), "○ That cannot be compared with 63: write a number."),
+    (("?", False), "○ That cannot be compared with no: write yes or no."),
+    (("?", [1, 2]), "○ That cannot be compared with [1, 2]: write a list, such as 1, 2, 3."),
+    ((22.3, 22.30003), "✗ You predicted 22.3, and it was 22.30003. Look at why.\n  " + BECAUSE),
+]
 
 
-def test_without_a_prediction_it_says_what_happened_and_not_why():
-    prediction = predict("____", 63, because=BECAUSE)
-    assert str(prediction) == "○ No prediction yet. It was 63."
-    assert not prediction.was_right
-
-
-def test_a_right_one():
-    prediction = predict("63", 63)
-    assert str(prediction) == "✓ You predicted 63, and it was 63."
-    assert prediction.was_right
-
-
-def test_another_one_is_not_blamed():
-    assert str(predict(60, 63)) == "✗ You predicted 60, and it was 63. Look at why."
+@pytest.mark.parametrize(("given_and_happened", "said"), SHOWN)
+def test_a_prediction_is_told_beside_what_happened(given_and_happened, said):
+    prediction = predict(*given_and_happened, because=BECAUSE)
+    assert str(prediction) == said
+    assert prediction.was_right == said.startswith("✓")
+    assert (BECAUSE in prediction.html()) == (BECAUSE in said)
 
 
 def test_a_near_one_is_said_to_be_near():
-    near = predict(60, 63, tolerance=5)
-    assert str(near) == "✓ You predicted 60, and it was 63. That is close enough."
-
-
-@pytest.mark.parametrize("guess", [60, 63])
-def test_the_reason_is_given_whether_it_was_right_or_not(guess):
-    prediction = predict(guess, 63, because=BECAUSE)
-    assert str(prediction).endswith(f"\n  {BECAUSE}")
-    assert BECAUSE in prediction.html()
-
-
-def test_two_that_look_alike_show_all_their_digits():
-    assert "predicted 22.3, and it was 22.30003." in str(predict(22.3, 22.30003))
-    assert "predicted 1.0000001, and it was 1.0000023." in str(predict(1.0000001, 1.0000023))
+    near = predict("about 60", 63, tolerance=5)
+    assert str(near) == "✓ You predicted about 60, and it was 63. That is close enough."
 
 
 def test_odd_guesses_never_end_the_page():
@@ -57,19 +39,6 @@ def test_odd_guesses_never_end_the_page():
         assert str(predict(guess, 63, tolerance="wide", because=3)).startswith("○ ")
         assert str(predict(guess, "High", tolerance="wide", because=3)).startswith("✗ ")
     assert str(predict(float("nan"), 63)).startswith("✗ ")
-
-
-def test_what_cannot_be_compared_is_no_wrong_prediction():
-    prediction = predict("?", 63, because=BECAUSE)
-    assert str(prediction) == "○ That cannot be compared with 63: write a number."
-    assert str(predict("?", False)) == "○ That cannot be compared with no: write yes or no."
-    assert not prediction.was_right
-
-
-def test_a_guess_in_words_is_told_as_it_was_written():
-    assert str(predict("20-30", 26)) == "✓ You predicted 20-30, and it was 26."
-    near = predict("about 60", 63, tolerance=5)
-    assert str(near) == "✓ You predicted about 60, and it was 63. That is close enough."
 
 
 def test_text_and_html_say_the_same_and_are_the_same_every_time():
@@ -81,62 +50,45 @@ def test_text_and_html_say_the_same_and_are_the_same_every_time():
 
 # Numbers and truths in a text.
 
-
-@pytest.mark.parametrize(
-    ("text", "number"),
-    [
-        ("63", 63), ("63 messages", 63), ("63!", 63), ("(63)", 63), ("1s", 1), ("22.3 °C", 22.3),
-        ("~26", 26), ("about 26.", 26), ("-5", -5), ("\u22125", -5), (".5 s", 0.5), ("1e3", 1000),
-        ("1,000 messages", 1000), ("63, yes, 63", 63), ("a Float32 of 5", 5),
-        ("one", 1), ("Sixty-three", 63), ("sixty three messages", 63), ("nineteen", 19),
-        ("a hundred", 100), ("one hundred", 100), ("hundred", 100), ("None", 0), ("twenty", 20),
-    ],
-)  # fmt: skip
-def test_the_one_number(text, number):
-    assert range_in(text) == (number, number)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        *("20-30", "20 - 30", "20 to 30", "20\u201330", "20..30", "20 s to 30 s", "30-20"),
-        *("between 20 and 30", "twenty to thirty", "about 20-30 messages", "twenty-thirty"),
-    ],
+NUMBERS = {
+    "63 messages": 63, "63!": 63, "(63)": 63, "63, yes, 63": 63, "1s": 1,
+    "a Float32 of 1": 1, "one": 1, "~26": 26, "about 26.": 26, "22.3 °C": 22.3, "-5": -5,
+    "\u22125": -5, ".5 s": 0.5, "1e3": 1000, "1,000 messages": 1000, "None": 0,
+    "twenty": 20, "nineteen": 19,
+}  # fmt: skip
+RANGES = (
+    *("20-30", "20 to 30", "20\u201330", "20..30", "20 s to 30 s", "30-20"),
+    *("between 20 and 30", "about 20-30 messages"),
 )
-def test_a_range(text):
-    assert range_in(text) == (20, 30)
+NEITHER = (
+    *("", "?", "many", "20 and 30", "20 or 30", "1, 2, 3", "1-2-3", "1.2.3", "Float32", "0x10"),
+    *("more than 20", "> 20", "20+", "at least 20", "not 63", "isn't 63", "10 %", "5 * 13"),
+    *("1/2", "x" * 300 + " 5", "someone"),
+)
 
 
 @pytest.mark.parametrize(
-    "text",
+    ("text", "ends"),
     [
-        *("", "?", "many", "20 and 30", "20 or 30", "1, 2, 3", "1-2-3", "1.2.3", "Float32", "0x10"),
-        *("more than 20", "> 20", "20+", "at least 20", "not 63", "isn't 63", "10 %", "5 * 13"),
-        *("1/2", "x" * 300 + " 5", "someone"),
+        *((text, (number, number)) for text, number in NUMBERS.items()),
+        *((text, (20, 30)) for text in RANGES),
+        *((text, None) for text in NEITHER),
     ],
 )
-def test_no_number_or_several(text):
-    assert range_in(text) is None
+def test_the_one_number_or_range_of_a_text(text, ends):
+    assert range_in(text) == ends
 
 
 @pytest.mark.parametrize(
-    "text", ["yes", "YES!", "yes.", "Yes, it does", "true", "y", "I think yes"]
+    ("truth", "texts"),
+    [
+        (True, ("yes", "YES!", "Yes, it does", "true", "y", "I think yes")),
+        (False, ("no", "no!", "No, it does not", "False", "n", "probably no")),
+        (None, ("", "?", "perhaps", "yes or no", "no idea", "not yes", "I do not know", "nobody")),
+    ],
 )
-def test_yes(text):
-    assert truth_in(text) is True
-
-
-@pytest.mark.parametrize("text", ["no", "no!", "No, it does not", "False", "n", "probably no"])
-def test_no(text):
-    assert truth_in(text) is False
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["", "?", "perhaps", "yes or no", "no idea", "not yes", "I do not know", "63", "nobody"],
-)
-def test_neither(text):
-    assert truth_in(text) is None
+def test_yes_and_no(truth, texts):
+    assert [truth_in(text) for text in texts] == [truth] * len(texts)
 
 
 @given(st.text() | st.text(alphabet="0123456789.,-+e one-twy%"))
@@ -168,51 +120,41 @@ class Broken:
         raise ZeroDivisionError
 
 
-@pytest.mark.parametrize("guess", ["____", " ____ ", "'____'", "_", "", "  ", None, ...])
-def test_nothing_filled_in_is_a_blank(guess):
-    assert is_blank(guess)
-
-
-@pytest.mark.parametrize("guess", [0, False, [], "no", "a_b", 0.0])
-def test_a_guess_is_no_blank(guess):
-    assert not is_blank(guess)
+def test_nothing_filled_in_is_a_blank():
+    assert all(map(is_blank, ["____", " ____ ", "'____'", "_", "", "  ", None, ...]))
+    assert not any(map(is_blank, [0, False, [], "no", "a_b", 0.0]))
 
 
 @pytest.mark.parametrize(
-    ("guess", "happened"),
+    ("guess", "happened", "verdict"),
     [
-        (63, 63), ("63", 63), (" 63.0 ", 63), (63.0, 63), (63, "63"), (np.int64(63), 63),
-        (63, np.float32(63)), (22.3, 22.299999237060547), (0.3, 0.1 + 0.2), ("nan", nan),
-        (float("inf"), "inf"), ("High", "High"), ("high", "High"), (" HIGH  one ", "high one"),
-        ("'Normal'", "Normal"), ("Normal.", "Normal"), ("yes", True), ("No", False),
-        (True, "yes"), ("True", True), (True, True), (False, np.bool_(False)),
-        ([1, 2], (1, 2.0)), ("1, 2", [1, 2]), ("[1, 2]", [1, 2]), ("'a', 'b'", ["A", "b"]),
-        ([], []), ("[]", []), ([["1"], [2]], [[1], ["2"]]), (np.array([1, 2]), [1, 2]),
-        ([1, 2], np.array([1, 2])), (5, [5]), ({"a": 1}, {"a": 1}), ({1, 2}, {2, 1}),
-        (10**400, 10**400),
+        *((guess, 63, True) for guess in (63, " 63.0 ", 63.0, np.int64(63), "63 messages", [63])),
+        *((guess, 63, False) for guess in (60, "60", "three", "20-30")),
+        *((guess, 63, None) for guess in ("many", "26 and 40", True, [1, 2], [])),
+        (63, np.float32(63), True), (22.3, 22.299999237060547, True), (0.3, 0.1 + 0.2, True),
+        ("nan", nan, True), (float("inf"), "inf", True), (22.31, 22.3, False), (nan, 3, False),
+        (1_000_000, 1_000_001, False), ("20-30", 26, True), ("about 26", 27, False),
+        ("High", "High", True), ("high.", "High", True), (" HIGH  one ", "high one", True),
+        ("High", "Normal", False), ("", "High", False),
+        ("yes", True, True), ("No, it does not", np.bool_(False), True), ("yes", False, False),
+        (True, "yes", True), ("perhaps", True, None), (1, True, None),
+        ([1, 2], (1, 2.0), True), ("1, 2", [1, 2], True), ("'a', 'b'", ["A", "b"], True),
+        ("1 s, 2 s", [1, 2], True), ([], [], True), ([["1"], [2]], [[1], ["2"]], True),
+        (np.array([1, 2]), [1, 2], True), (5, [5], True), ("?", [1, 2], None),
+        ([1, 2], [2, 1], False), ("1, 2, 3", [1, 2], False),
+        ({"a": 1}, {"a": 1}, True), ({"a": 1}, {"a": 2}, False), (3, object(), False),
     ],
 )  # fmt: skip
-def test_they_agree(guess, happened):
-    assert agree(guess, happened)
-
-
-@pytest.mark.parametrize(
-    ("guess", "happened"),
-    [
-        (60, 63), ("60", 63), ("many", 63), (1_000_000, 1_000_001), (22.31, 22.3), (nan, 3),
-        ("High", "Normal"), ("", "High"), ("yes", False), ("perhaps", True), (1, True),
-        (True, 1), (True, 0), ([1, 2], [1]), ([1, 2], [2, 1]), ("1, 2, 3", [1, 2]), (1, []),
-        ({"a": 1}, {"a": 2}), (object(), 3), (3, object()), (len, "len"), (10**400, 1),
-    ],
-)  # fmt: skip
-def test_they_do_not_agree(guess, happened):
-    assert not agree(guess, happened)
+def test_what_agrees_what_does_not_and_what_cannot_be_compared(guess, happened, verdict):
+    assert compared(guess, happened) is verdict
+    assert agree(guess, happened) is (verdict is True)
 
 
 @pytest.mark.parametrize("tolerance", [3, 3.0, "3", 100, np.float64(4)])
 def test_a_number_may_be_a_little_away(tolerance):
     assert agree(60, 63, tolerance)
     assert agree([60], [63], tolerance)
+    assert agree("20-30", 33, tolerance)
     assert not agree("High", "Normal", tolerance)
 
 
@@ -247,59 +189,19 @@ def test_a_value_agrees_with_itself_and_with_how_it_is_told_exactly(value):
 @pytest.mark.parametrize(
     ("value", "words"),
     [
-        (63, "63"), (63.0, "63"), (22.299999237060547, "22.3"), (True, "yes"), (False, "no"),
+        (63.0, "63"), (22.299999237060547, "22.3"), (np.float32(22.3), "22.3"), (True, "yes"),
         (None, "nothing"), (" High ", "High"), ("", "''"), ([1, True, "a"], "[1, yes, a]"),
-        ((), "[]"), ({"a": 1.0}, "{a: 1}"), ("a\nb", "a b"), (np.float32(22.3), "22.3"),
-        (Broken(), "a Broken"), ("x" * 500, "x" * 196 + " ..."),
+        ((), "[]"), ({"a": 1.0}, "{a: 1}"), ("a\nb", "a b"), (Broken(), "a Broken"),
+        ("x" * 500, "x" * 196 + " ..."),
     ],
 )  # fmt: skip
 def test_a_value_is_told_as_people_write_it(value, words):
     assert in_words(value) == words
 
 
-def test_no_address_of_the_memory_is_told():
-    assert " at 0x" not in in_words(object())
-    assert " at 0x" not in in_words([object()])
-
-
-@pytest.mark.parametrize(
-    ("guess", "happened", "other"),
-    [
-        ("63 messages", 63, 64), ("63!", 63, 64), ("sixty-three", 63, 64), ([63], 63, 64),
-        ("[63]", 63, 64), ("1 s", 1, 2), ("one", 1, 2), ("~26", 26, 27), ("about 26", 26, 27),
-        ("20-30", 26, 31), ("no!", False, True), ("No, it does not", False, True),
-        ("yes.", True, False), ("1 s, 2 s", [1, 2], [1, 3]), ("High!", "High", "Low"),
-    ],
-)  # fmt: skip
-def test_an_answer_may_be_said_in_other_words(guess, happened, other):
-    assert compared(guess, happened) is True
-    assert compared(guess, other) is False
-
-
-def test_a_range_is_as_wide_as_the_tolerance_allows():
-    assert compared("20-30", 33) is False
-    assert compared("20-30", 33, 3) is True
-    assert compared("about 26", 27, 1) is True
-
-
-@pytest.mark.parametrize(
-    ("guess", "happened", "form"),
-    [
-        ("?", 63, "a number"), ("yes", 63, "a number"), (True, 1, "a number"),
-        ("26 and 40", 26, "a number"), ([1, 2], 1, "a number"), ([], 1, "a number"),
-        ("perhaps", True, "yes or no"), (1, np.bool_(True), "yes or no"),
-        ("?", [1, 2], "a list, such as 1, 2, 3"),
-    ],
-)  # fmt: skip
-def test_what_cannot_be_compared_is_not_wrong(guess, happened, form):
-    assert compared(guess, happened) is None
-    assert not agree(guess, happened)
-    assert form_of(happened) == form
-
-
-def test_what_holds_itself_and_what_is_very_long_are_told_all_the_same():
+def test_what_holds_itself_is_told_all_the_same_and_no_address_of_the_memory():
     endless: list = []
     endless.append(endless)
     assert in_words(endless) == "a list"
     assert not agree(endless, [[1]])
-    assert in_words(list(range(1_000_000))).endswith(" ...")
+    assert " at 0x" not in in_words([object()])

@@ -20,15 +20,13 @@ from parsed_html import Shown
 from rosbeat import cli, progress
 from rosbeat.authoring.build import compare
 from rosbeat.exercises import progress as file
-from rosbeat.exercises.exercise import failed, not_attempted, passed
+from rosbeat.exercises.exercise import failed, passed
 from rosbeat.exercises.progress import (
     ProgressFile,
     Standing,
-    outcomes,
     progress_file,
 )
-from rosbeat.exercises.registry import EXERCISES, PAGES, Page
-from rosbeat.records import Outcome
+from rosbeat.exercises.registry import EXERCISES, PAGES
 from rosbeat.workspace import place
 
 
@@ -39,28 +37,9 @@ def after(*outcomes):
     return standing
 
 
-def test_nothing_tried_is_no_attempt():
-    standing = after(not_attempted(), not_attempted())
-    assert (standing.attempts, standing.status) == (0, "not attempted")
-
-
 def test_attempts_are_counted_and_the_last_mistake_is_kept():
     standing = after(failed("03a", "", "", "depth-missing"), failed("03a", "", "", "wrong-rate"))
     assert (standing.attempts, standing.status, standing.mistake) == (2, "failed", "wrong-rate")
-
-
-def test_who_has_passed_once_has_passed():
-    standing = after(passed(""), failed("03a", "", ""), not_attempted())
-    assert (standing.status, standing.outcome, standing.attempts) == ("passed", "not attempted", 2)
-
-
-def test_the_most_points_count():
-    points = [Outcome("03c", "failed", points=number, out_of=4) for number in (1, 3, 2)]
-    assert after(*points).points == 3
-
-
-def test_the_last_mistake_stays_after_passing():
-    assert after(failed("03a", "", "", "wrong-rate"), passed("")).mistake == "wrong-rate"
 
 
 # The file.
@@ -86,11 +65,6 @@ def folder(tmp_path):
 @pytest.fixture
 def remembered(folder, told):
     return ProgressFile(folder, told.append)
-
-
-def test_nothing_is_there_at_first_and_reading_makes_nothing(remembered, folder):
-    assert dict(remembered.standings()) == {}
-    assert not folder.exists()
 
 
 def test_what_is_changed_is_there_for_the_next_kernel(remembered, folder, told):
@@ -191,15 +165,6 @@ def test_a_damaged_file_is_kept_aside_and_a_new_one_begun(remembered, folder, to
     assert ".rosbeat/progress-unreadable-1.json" in told[0]
 
 
-def test_what_was_kept_aside_is_never_replaced(remembered, folder):
-    for content in (b"one", b"two"):
-        remembered.change("03a", one_more)
-        remembered.path.write_bytes(content)
-        remembered.change("03a", one_more)
-    kept = [(folder / f"progress-unreadable-{number}.json").read_bytes() for number in (1, 2)]
-    assert kept == [b"one", b"two"]
-
-
 @pytest.mark.parametrize("stands_there", ["a file", "a folder"])
 def test_where_nothing_can_be_written_it_is_said_once_and_remembered(
     remembered, folder, told, stands_there
@@ -214,15 +179,6 @@ def test_where_nothing_can_be_written_it_is_said_once_and_remembered(
     assert remembered.standings() == {"03a": Standing(attempts=3), "03b": Standing(attempts=1)}
     assert len(told) == 1
     assert "cannot be saved" in told[0]
-
-
-def test_what_could_not_be_written_is_written_later(remembered, folder):
-    folder.write_text("mine")
-    remembered.change("03a", one_more)
-    folder.unlink()
-    remembered.change("03b", one_more)
-    expected = {"03a": Standing(attempts=1), "03b": Standing(attempts=1)}
-    assert ProgressFile(folder).standings() == expected
 
 
 KERNEL = """
@@ -293,26 +249,6 @@ def shown():
     return Shown(progress().html())
 
 
-def test_an_untouched_course_is_all_open(home):
-    words = repr(progress())
-    assert words.startswith(f"Your progress: 0 of {len(EXERCISES)} exercises passed, 0 of ")
-    assert words.endswith(" Still open: all.")
-
-
-def test_what_was_checked_is_told_in_words(home):
-    progress_file().change("00a", lambda before: before.after(passed("")))
-    progress_file().change("00b", lambda before: before.after(failed("00b", "", "")))
-    words = progress().description
-    assert f"1 of {len(EXERCISES)} exercises passed" in words
-    assert "Passed: 00a. Not there yet: 00b." in words
-    assert "\n" not in words
-
-
-def test_the_list_is_the_same_every_time(open_page):
-    open_page("03_write_a_publisher.ipynb")
-    assert progress().bundle() == progress().bundle()
-
-
 def test_a_page_shows_its_exercises_and_the_course_in_two_lines(open_page):
     open_page("03_write_a_publisher.ipynb")
     pass_all("00")
@@ -367,30 +303,11 @@ def test_it_says_where_to_go_on(open_page, done, here, onward):
     assert onward in found.links or "on this page" in onward
 
 
-def test_who_has_passed_everything_is_told_so(open_page):
-    open_page("home.ipynb")
-    pass_all(*(page.number for page in PAGES))
-    found = shown()
-    assert found.paragraphs[0].endswith("Everything is passed.")
-
-
-def test_there_is_no_link_to_a_page_that_is_not_there(home):
-    found = shown()
-    assert found.links == {}
-    assert "Continue here: 00 Hear the heartbeat." in found.paragraphs[0]
-
-
 def test_the_list_is_shown_also_where_the_folder_of_the_kernel_is_gone(home, tmp_path, monkeypatch):
     (tmp_path / "gone").mkdir()
     monkeypatch.chdir(tmp_path / "gone")
     (tmp_path / "gone").rmdir()
     assert len(shown().tables) == 2
-
-
-def test_exercises_of_no_page_have_a_heading_too():
-    assert PAGES[3].heading == "03 Write a publisher"
-    assert Page("", "The whole system", ()).heading == "The whole system"
-    assert outcomes(Page("", "The whole system", ()), {}) == []
 
 
 KERNEL_CELLS = (
@@ -471,12 +388,6 @@ def test_the_same_as_json(two_checked, capsys):
     assert (second["page"], second["title"]) == ("00", EXERCISES["00b"].title)
 
 
-def test_a_file_that_cannot_be_read_is_an_empty_one(two_checked, capsys):
-    progress_file().path.write_text("{")
-    assert cli.main(["progress"]) == 0
-    assert f"0 of {len(EXERCISES)} exercises passed" in capsys.readouterr().out
-
-
 # The course's home page.
 
 HOME = Path(__file__).parents[3] / "notebooks" / "home.ipynb"
@@ -502,15 +413,6 @@ def test_the_home_page_is_brought_up_to_date_and_changed_nowhere_else(own_home, 
     nbformat.validate(nbformat.read(own_home, as_version=4))
     assert compare(own_home, HOME.read_bytes()).kind == "opened"
     assert capsys.readouterr().out == ""
-
-
-def test_a_home_page_that_is_up_to_date_is_not_written(own_home):
-    cli.main(["progress", "--home", str(own_home)])
-    before = own_home.stat()
-    cli.main(["progress", "--home", str(own_home)])
-    assert (own_home.stat().st_ino, own_home.stat().st_mtime_ns) == (
-        *(before.st_ino, before.st_mtime_ns),
-    )
 
 
 @pytest.mark.parametrize("content", [None, b"", b"{}", b'{"cells": []}', b"[1]"])
