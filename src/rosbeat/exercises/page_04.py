@@ -203,20 +203,15 @@ def draw_room(draw: Draw) -> Readings:
 
     The first one is bad, one is 0, one comes twice, and one would be fine without its sign.
     """
+    far = draw.number
     return draw.until(
         lambda: (
-            draw.number(27.5, 26.5, 29.0),
+            far(27.5, 26.5, 29.0),
             *draw.shuffled(
                 (
-                    *(
-                        draw.number(22.0, 21.0, 25.0),
-                        25.5,
-                        26.0,
-                        0.0,
-                        draw.number(-22.0, -25.0, -21.0),
-                    ),
-                    *(26.00390625, draw.number(100.0, 40.0, 120.0), 28.25, 28.25, 20.5, 20.0),
-                    *(19.99609375, draw.number(19.75, 15.0, 19.75), draw.number(-5.0, -20.0, 10.0)),
+                    *(far(22.0, 21.0, 25.0), 25.5, 26.0, 0.0, far(-22.0, -25.0, -21.0)),
+                    *(26.00390625, far(100.0, 40.0, 120.0), 28.25, 28.25, 20.5, 20.0),
+                    *(19.99609375, far(19.75, 15.0, 19.75), far(-5.0, -20.0, 10.0)),
                 )
             ),
         ),
