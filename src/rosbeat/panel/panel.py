@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from rosbeat.panel.instruments import SessionInstruments
 
 #: Seconds from one look at the session to the next: 20 frames a second.
-PERIOD = 0.05
+POLL_PERIOD = 0.05
 #: Seconds that `close` waits for the look that is being taken.
 _PATIENCE = 2.0
 #: Frames on their way at most, of which the browser has said nothing yet.
@@ -103,7 +103,8 @@ class Panel:
     def _run(self) -> None:
         due = time.monotonic()
         while not self._stopping.wait(max(0.0, due - time.monotonic())):
-            due = max(due + PERIOD, time.monotonic())  # looks that were missed are not made up for
+            # Looks that were missed are not made up for.
+            due = max(due + POLL_PERIOD, time.monotonic())
             self._turn()
 
     def _turn(self) -> None:

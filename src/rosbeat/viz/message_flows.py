@@ -35,7 +35,7 @@ _OTHER = theme.Style(theme.MUTED, "|", "")
 #: What may become of a line without a partner, in the words of the key, and its hollow mark.
 _ALONE = {
     "early": ("sent before anybody was listening", theme.Style(theme.MUTED, "D", "")),
-    "lost": ("lost message", theme.Style(theme.ALERT, "s", "")),
+    "lost": ("lost message", theme.Style(theme.DROPPED, "s", "")),
     "late": ("sent after the receiver's last line", theme.Style(theme.MUTED, "s", "")),
     "strange": ("not among what was sent", theme.Style(theme.PURPLE, "o", "")),
 }
@@ -269,7 +269,7 @@ class _Drawing:
     def _draw_lane(self, side: int, y: float, sums: Sequence[str]) -> None:
         self._canvas.lane(self._scale, y, self._shown.names[side], has_text_below=True)
         for rank, words in enumerate(sums, 1):
-            colour = theme.ALERT_TEXT if words.endswith("lost") else theme.MUTED
+            colour = theme.DROPPED_TEXT if words.endswith("lost") else theme.MUTED
             at = y - rank * line_height() - 3
             self._canvas.text(self._scale.left - 18, at, words, colour, "right")
         for at_ns in self._shown.others[side]:

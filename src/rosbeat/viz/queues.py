@@ -27,7 +27,7 @@ _CELL, _WIDEST, _ROOMY = 22.0, 34.0, 17.0
 _HEAD, _FOOT = 12.0, 56.0
 _WAITS = theme.Style(theme.BLUE, "s", "")
 _TAKEN = theme.Style(theme.TAKEN, "v", "")
-_DROPPED = theme.Style(theme.ALERT, "X", "")
+_DROPPED = theme.Style(theme.DROPPED, "X", "")
 _LIMIT = theme.Style(theme.INK, "", "--")
 
 
@@ -246,7 +246,7 @@ def _draw_column(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
 
 
 def _draw_exit(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
-    look, colour = (_TAKEN, theme.TAKEN_TEXT) if one.taken else (_DROPPED, theme.ALERT_TEXT)
+    look, colour = (_TAKEN, theme.TAKEN_TEXT) if one.taken else (_DROPPED, theme.DROPPED_TEXT)
     canvas.mark(x, grid.bottom - 12, look, min(8.0, grid.step * 0.6), width=0, layer=2)
     if grid.step >= _ROOMY:
         number = str(one.taken or one.dropped)

@@ -53,6 +53,8 @@ TOPIC_EDGE = "#9A6700"
 #: Text that says what is wrong, and the line that shows it.
 ALERT = VERMILLION
 ALERT_TEXT = "#A84300"
+#: A message that was dropped, lost, or too old when its turn came.
+DROPPED, DROPPED_TEXT = ALERT, ALERT_TEXT
 #: A message that a callback took.
 TAKEN = GREEN
 TAKEN_TEXT = "#00694D"

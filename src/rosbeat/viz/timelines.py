@@ -52,7 +52,7 @@ _CALLBACKS = {
     "timer": ("timer callback", theme.Style(theme.BLUE, "s", "")),
     "subscription": ("subscription callback", theme.Style(theme.TAKEN, "o", "")),
     "event": ("event callback", theme.Style(theme.PURPLE, "v", "")),
-    "expired": ("message too old", theme.Style(theme.ALERT, "x", "")),
+    "expired": ("message too old", theme.Style(theme.DROPPED, "x", "")),
 }
 _OTHER = ("other callback", theme.Style(theme.PURPLE, "D", ""))
 _LOG = theme.Style(theme.MUTED, "|", "")
@@ -64,7 +64,7 @@ _MESSAGES = (
     theme.Style(theme.PURPLE, "", ":"),
     theme.Style(theme.INK, "", (0, (1, 2.6))),
 )
-_LOST = theme.Style(theme.ALERT, "", "--")
+_LOST = theme.Style(theme.DROPPED, "", "--")
 
 
 # What is shown.
