@@ -81,5 +81,5 @@ def _run(seconds: float, watched: bool) -> tuple[Any, bool, float]:
         ros.stop()
         sent = {source.publisher.topic_name: source.count for source in sources}
         recorded = {name: len(ros.messages(name)) for name in sent}
-        time.sleep(3 * panels.PERIOD)  # for the frame with the last of them
+        time.sleep(3 * panels.POLL_PERIOD)  # for the frame with the last of them
     return browser, recorded == sent and (not browser or browser.totals == sent), share

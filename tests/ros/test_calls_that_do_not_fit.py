@@ -71,8 +71,6 @@ CALLS = [
     ("bags.drift()", "was called without `rate`", "bags.drift(rate=0.1)"),
     ("bags.drift(0,5)", "was given 2 positional arguments", "`0.5`"),
     ("bags.dropouts(shar=1)", "has no argument `shar`", "Did you mean `share`?"),
-    ("bags.spikes()", "was called without `share` and `size`", "bags.spikes("),
-    ("bags.delayed()", "was called without `seconds`", "bags.delayed("),
     ("bags.stuck(1, 2, 3)", "was given 3 positional arguments", "bags.stuck("),
     ("bags.with_nan(a=1)", "has no argument `a`", "bags.with_nan("),
     ("clinic.names(5)", "was given 1 positional argument", "clinic.names()"),

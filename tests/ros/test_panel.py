@@ -243,7 +243,7 @@ def panel_threads():
 
 
 def test_running_the_cell_again_leaves_one_panel(live, in_a_browser):
-    for _ in range(20):
+    for _ in range(3):
         panel = live.panel()
         panel._heard({"do": "open"})
         live.add(Sensor)

@@ -4,8 +4,8 @@
 - `Bag` reads a bag from any source (`bag`);
 - `replay` turns a bag into a node that publishes everything again, in virtual time (`replaying`);
 - `compare` lists the differences between two runs;
-- `stuck`, `drift`, `dropouts`, `with_nan`, `spikes` and `delayed` are faults, applied with `inject`
-  or on replay (`faults`).
+- `stuck`, `drift`, `dropouts` and `with_nan` are faults, applied with `inject` or on replay
+  (`faults`).
 
 `serialization` converts messages to bytes and back; `inputs` reads what these functions are given.
 Names load when they are first used (PEP 562): only `replay` needs ROS.
@@ -18,18 +18,16 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rosbeat.bags.bag import Bag as Bag
-    from rosbeat.bags.faults import delayed as delayed
     from rosbeat.bags.faults import drift as drift
     from rosbeat.bags.faults import dropouts as dropouts
     from rosbeat.bags.faults import inject as inject
-    from rosbeat.bags.faults import spikes as spikes
     from rosbeat.bags.faults import stuck as stuck
     from rosbeat.bags.faults import with_nan as with_nan
     from rosbeat.bags.recording import record as record
     from rosbeat.bags.replaying import replay as replay
     from rosbeat.comparisons import compare as compare
 
-_FAULTS = ("delayed", "drift", "dropouts", "inject", "spikes", "stuck", "with_nan")
+_FAULTS = ("drift", "dropouts", "inject", "stuck", "with_nan")
 _HOMES = {
     "Bag": "rosbeat.bags.bag",
     "compare": "rosbeat.comparisons",

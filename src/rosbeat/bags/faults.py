@@ -6,7 +6,7 @@ of the recording. Random choices come from `seed`, and are the same on every run
 
 from __future__ import annotations
 
-from collections import defaultdict, deque
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, replace
@@ -18,9 +18,10 @@ from rosbeat.bags.inputs import Run, full_name, known_topic, observation_of
 from rosbeat.errors import BagError, called_as
 from rosbeat.records import NANOSECONDS, Sample
 
-#: What a fault does to the messages of one topic. Messages that are not there were lost; those in
-#: between may come at other times.
+#: A fault, or any function that a caller writes.
 Change = Callable[[Sequence[Sample]], Iterable[Sample]]
+#: What a fault does to the messages of one topic: each of them as it is now, or None if it is lost.
+_TopicChange = Callable[[Sequence[Sample]], Iterable[Sample | None]]
 #: From when (included) to when (not included), in seconds.
 Span = tuple[float, float]
 
@@ -39,27 +40,25 @@ class InjectedFault:
 
     words: str
     topic: str
-    change: Change
+    change: _TopicChange
 
     def __repr__(self) -> str:
         return f"{self.topic}: {self.words}" if self.topic else self.words
 
     def __call__(self, samples: Sequence[Sample]) -> tuple[Sample, ...]:
-        """Inject the fault into messages, topic by topic, and keep them in order of time."""
-        groups: dict[str, list[Sample]] = defaultdict(list)
-        #: Where messages stood, so that those of one time stay in order.
-        places: dict[tuple[str, int], deque[int]] = defaultdict(deque)
+        """Inject the fault into messages, topic by topic; those that are left keep their order."""
+        places: dict[str, list[int]] = defaultdict(list)
         for number, one in enumerate(samples):
-            groups[one.topic].append(one)
-            places[one.topic, one.time_ns].append(number)
-        if self.topic and groups:
-            known_topic(self.topic, groups)
-        keyed = []
-        for topic, group in groups.items():
-            for one in self.change(group) if self.topic in ("", topic) else group:
-                before = places[topic, one.time_ns]
-                keyed.append((one.time_ns, before.popleft() if before else len(samples), one))
-        return tuple(one for *_, one in sorted(keyed, key=lambda key: key[:2]))
+            places[one.topic].append(number)
+        if self.topic and places:
+            known_topic(self.topic, places)
+        found: list[Sample | None] = list(samples)
+        for topic, numbers in places.items():
+            if self.topic in ("", topic):
+                changed = self.change([samples[number] for number in numbers])
+                for number, after in zip(numbers, changed, strict=True):
+                    found[number] = after
+        return tuple(one for one in found if one is not None)
 
 
 @called_as("bags.inject(bag, bags.stuck(at=20))")
@@ -167,12 +166,13 @@ def dropouts(
     _check("dropouts", "share", share, high=1)
     gaps = [_gap(span) for span in (spans if isinstance(spans, Iterable) else [spans])]
 
-    def change(samples: Sequence[Sample]) -> Iterator[Sample]:
-        dice = _dice(seed, samples)
+    def change(samples: Sequence[Sample]) -> Iterator[Sample | None]:
+        # One topic's random numbers do not depend on the other topics.
+        dice = Random(f"{seed}:{samples[0].topic}")
         for one in samples:
             lost = dice.random() < share
-            if not lost and not any(begin <= one.time_ns < end for begin, end in gaps):
-                yield one
+            lost = lost or any(begin <= one.time_ns < end for begin, end in gaps)
+            yield None if lost else one
 
     words = [f"{share:.0%} of the messages lost"] if share or not gaps else []
     words += [f"no messages from {a / NANOSECONDS:g} s to {b / NANOSECONDS:g} s" for a, b in gaps]
@@ -214,80 +214,11 @@ def with_nan(
     )
 
 
-@called_as("bags.spikes(share=0.1, size=5)")
-def spikes(
-    share: float,
-    size: float,
-    *,
-    seed: int = 0,
-    topic: str | None = None,
-    field: str | None = None,
-) -> InjectedFault:
-    """Simulate interference: now and then a value is far too high or too low.
-
-    Args:
-        share: Probability that a message is affected, from 0 to 1.
-        size: Size of the error, in units of the value.
-        seed: Seed of the random numbers.
-        topic: The affected topic; by default all topics.
-        field: The affected number in a message, nested fields with dots; None if there is only one.
-
-    Raises:
-        BagError: If `share` is not from 0 to 1, or `size` is not a finite number.
-    """
-    _check("spikes", "share", share, high=1)
-    _check("spikes", "size", size, low=-inf)
-
-    def change(samples: Sequence[Sample]) -> Iterator[Sample]:
-        dice = _dice(seed, samples)
-        for one in samples:
-            affected, error = dice.random() < share, dice.choice((-size, size))
-            yield _added(one, field, error) if affected else one
-
-    return _fault(f"spikes of {size:g} in {share:.0%} of the messages", topic, change)
-
-
-@called_as("bags.delayed(seconds=0.5)")
-def delayed(
-    seconds: float, *, jitter: float = 0, seed: int = 0, topic: str | None = None
-) -> InjectedFault:
-    """Simulate a slow connection: every message arrives late, optionally with jitter.
-
-    Messages may overtake each other, as they may on a network.
-
-    Args:
-        seconds: Minimum delay, in seconds.
-        jitter: Maximum additional delay, drawn for each message, in seconds.
-        seed: Seed of the random numbers.
-        topic: The affected topic; by default all topics.
-
-    Raises:
-        BagError: If a time is not a number from 0 up.
-    """
-    later, more = _ns("delayed", "seconds", seconds), _ns("delayed", "jitter", jitter)
-
-    def change(samples: Sequence[Sample]) -> list[Sample]:
-        dice = _dice(seed, samples)
-        moved = [
-            replace(one, time_ns=one.time_ns + later + dice.randint(0, more)) for one in samples
-        ]
-        return sorted(moved, key=lambda one: one.time_ns)
-
-    words = f"delayed by {seconds:g} s" + (f" and up to {jitter:g} s more" if jitter else "")
-    return _fault(words, topic, change)
-
-
 # How it works.
 
 
-def _fault(words: str, topic: str | None, change: Change) -> InjectedFault:
+def _fault(words: str, topic: str | None, change: _TopicChange) -> InjectedFault:
     return InjectedFault(words, full_name(topic) if topic is not None else "", change)
-
-
-def _dice(seed: int, samples: Sequence[Sample]) -> Random:
-    """Random numbers of one topic, which do not depend on the other topics."""
-    topic = samples[0].topic if samples else ""
-    return Random(f"{seed}:{topic}")
 
 
 def _when(at: float, seconds: float | None) -> str:

@@ -6,8 +6,7 @@ beside it, nothing from the network.
 - `panel` holds it together: the thread that looks 20 times a second, the flow of frames to the
   browser, and the picture that stands where no browser is;
 - `instruments` asks a session what happens, and does what is clicked; nothing else here knows ROS;
-- `sampling` turns a session into frames;
-- `layout` places the graph as the pictures of `rosbeat.viz` do.
+- `sampling` turns a session into frames, and places the graph as the pictures of `rosbeat.viz` do.
 
 How it works, and why:
 
@@ -15,13 +14,12 @@ How it works, and why:
   the nodes do. A look asks the recorder for what came since the last one, which costs the same
   for one message as for a thousand, and draws at most one point of each publisher.
 - **Frames wait for answers.** The browser acknowledges what it has received. A tab that sleeps
-  says nothing: after six frames one more is tried now and then, ever more seldom, and the first
-  frame after the sleep holds all that was missed. A browser that misses one asks for a whole
-  one.
-- **A kernel that is gone is noticed.** Frames, or small beats where no frame may go, come at least
-  once a second, from a thread, so a busy kernel sends them, too. After 2.4 seconds without any the
-  browser says so and disables the controls. It counts its own looks, not seconds: a tab that slept
-  had no time to hear anything.
+  says nothing: after six frames one is sent each second, and after ten minutes every half a minute.
+  The first frame after the sleep holds all that was missed. A browser that misses one asks for a
+  whole one.
+- **A kernel that is gone is noticed.** Frames come at least once a second, from a thread, so a busy
+  kernel sends them, too. After 2.4 seconds without any the browser says so and disables the
+  controls. It counts its own looks, not seconds: a tab that slept had no time to hear anything.
 - **Clicks run in a thread of their own.** JupyterLab sends them to a subshell of the kernel, so
   they count while a cell runs (`widget` says what that takes).
 - **What the panel does is real.** Its slider publishes through a node in the graph,

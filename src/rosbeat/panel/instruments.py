@@ -10,8 +10,7 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from rosbeat.errors import RosbeatError, SessionError
-from rosbeat.panel.layout import NUMERIC_TYPES
-from rosbeat.panel.sampling import News
+from rosbeat.panel.sampling import NUMERIC_TYPES, News
 from rosbeat.records import GraphSnapshot
 from rosbeat.ros.errors import no_such_node, node_has_ended, session_has_ended, session_is_not_live
 from rosbeat.ros.injection import Injector, TopicFault, restart_node

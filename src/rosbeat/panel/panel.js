@@ -100,7 +100,6 @@ function takeFrame(store, frame, send) {
   const was_lost = isLost(store);
   store.quiet = 0;
   if (was_lost) tell(store, { kind: "found" });
-  if (frame.beat) return;
   if (frame.closed) {
     store.closed = true;
     return tell(store, { kind: "closed" });

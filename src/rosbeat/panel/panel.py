@@ -28,11 +28,9 @@ POLL_PERIOD = 0.05
 _PATIENCE = 2.0
 #: Frames on their way at most, of which the browser has said nothing yet.
 WINDOW = 6
-#: Seconds after which a beat says that the kernel is there, if no frame may go; and for how long
-#: an unanswered browser gets beats.
-BEAT, BEATS_FOR = 1.0, 600.0
-#: Seconds to wait for an answer before one more frame is tried; doubled each time.
-FIRST_WAIT, LONGEST_WAIT = 0.5, 30.0
+#: Seconds between frames to a browser that does not answer, and for how long it gets them; then
+#: seconds between tries to wake it up.
+RETRY, RETRY_FOR, RARE_RETRY = 1.0, 600.0, 30.0
 #: While pages are built and tested, outputs must be the same each time; a panel's own never are.
 _STEADY = "ROSBEAT_STEADY_HOME"
 _HEADING = "The instrument panel of this session."
@@ -111,12 +109,9 @@ class Panel:
         self._sampler.look()
         with self._lock:
             now = time.monotonic()
-            if self._flow.may_send(now):
-                content = self._frame(now)
-            elif self._flow.beats(now):
-                content = {"beat": True}
-            else:
+            if not self._flow.may_send(now):
                 return
+            content = self._frame(now)
         self._post(content)
 
     def _frame(self, now: float) -> dict[str, Any]:
@@ -150,8 +145,8 @@ class FlowControl:
 
     Without a limit, a sleeping browser or a slow connection would let frames pile up in a queue for
     hours; with it, surplus frames are skipped. An acknowledgment may also be late because the
-    kernel is busy with a cell and cannot receive it, so a frame is sent from time to time all the
-    same, and beats in between: the browser takes a silence of seconds for a kernel that is gone.
+    kernel is busy with a cell and cannot receive it, so a frame is sent once a second all the same:
+    the browser takes a silence of seconds for a kernel that is gone.
 
     Times are seconds of a monotonic clock.
 
@@ -164,31 +159,21 @@ class FlowControl:
         self.asked = False
         self.number = 0
         self._heard = 0
-        self._wait = FIRST_WAIT
-        self._sent_at = self._beat_at = self._heard_at = 0.0
+        self._sent_at = self._heard_at = 0.0
         self._is_watched = False
 
     def may_send(self, now: float) -> bool:
         """Return whether a frame may be sent."""
         if not self._is_watched:
             return False
-        return self.number - self._heard < WINDOW or now - self._sent_at >= self._wait
+        wait = RETRY if now - self._heard_at < RETRY_FOR else RARE_RETRY
+        return self.number - self._heard < WINDOW or now - self._sent_at >= wait
 
     def sent(self, now: float) -> int:
         """Note that a frame goes out; return its number."""
-        if self.number - self._heard >= WINDOW:
-            self._wait = min(2 * self._wait, LONGEST_WAIT)
         self.number += 1
         self._sent_at, self.asked = now, False
         return self.number
-
-    def beats(self, now: float) -> bool:
-        """Return whether to send a beat, and note that it goes out."""
-        due = now - max(self._sent_at, self._beat_at) >= BEAT
-        if not (self._is_watched and due and now - self._heard_at < BEATS_FOR):
-            return False
-        self._beat_at = now
-        return True
 
     def ask(self, now: float) -> None:
         """Note that the browser wants a whole frame now."""
@@ -198,7 +183,7 @@ class FlowControl:
     def heard(self, number: int, now: float) -> None:
         """Note that the browser has received the frame with this number."""
         if self._heard <= number <= self.number:
-            self._heard, self._heard_at, self._wait = number, now, FIRST_WAIT
+            self._heard, self._heard_at = number, now
 
 
 class PanelWidget(AnyWidget):

@@ -29,16 +29,14 @@ a graph.
   picture is scaled to 548 pixels, and its text is 11 pixels high. Below, the output scrolls.
 - **One direction.** A graph that fits the page runs to the right and another one down, in pictures
   and in the panel, whatever is highlighted. Only the words of an explanation may turn it.
-- **Why the layout is our own.** The frame around the nodes of one process must hold these nodes
-  and nothing else, notes stand on arrows, boxes have sizes, and a graph that is too wide runs
-  down. networkx places boxes in layers, but does not minimize crossings and knows no sizes;
-  grandalf has Sugiyama's layers with sizes, and no frames, and would replace about 120 lines of
-  480. Graphviz has clusters, and is a program to install.
+- **Why the layout is our own.** Boxes have sizes, notes stand on arrows, and a graph that is too
+  wide runs down. networkx places boxes in layers, but does not minimize crossings and knows no
+  sizes; grandalf has Sugiyama's layers with sizes, would replace about 120 lines of 300, and would
+  draw every picture of the pages anew. Graphviz is a program to install.
 """
 
 from __future__ import annotations
 
-import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -63,17 +61,10 @@ _HOMES = {
     "values": "plots",
 }
 __all__ = list(_HOMES)
-#: Names of an earlier version, and what they are called now.
-_RENAMED = {"crossing": "message_flow", "differences": "comparison"}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name
-    """Load a public name when it is first used; an old name still works, with a warning."""
-    if name in _RENAMED:
-        now = _RENAMED[name]
-        words = f"`viz.{name}` is deprecated: it is called `viz.{now}` now."
-        warnings.warn(words, DeprecationWarning, stacklevel=2)
-        name = now
+    """Load a public name when it is first used."""
     if name not in _HOMES:
         raise AttributeError(f"module 'rosbeat.viz' has no attribute {name!r}")
     return getattr(import_module(f"rosbeat.viz.{_HOMES[name]}"), name)

@@ -39,7 +39,7 @@ _PIXELS_PER_POINT = theme.DPI / 72
 #: Height of a line of text in units of its font size.
 _LINE = 1.35
 #: A text up to the next `/`, `_` or blank; a leading slash stays with what follows it.
-_PART = re.compile(r"(?:^/)?[^/_ ]+[/_ ]?|(?:^/)?[/_ ]")
+_PART = re.compile(r"(?:(?<![^ ])/)?[^/_ ]+[/_ ]?|[/_ ]")
 #: Widest line of a lane's name.
 _LANE_NAMES = 170.0
 
@@ -357,11 +357,6 @@ class Canvas:
             )
 
 
-def least_frame_width() -> float:
-    """Return the least width of a frame in CSS pixels, so that its label fits on the edge."""
-    return text_width(_FRAME_LABEL) + 2 * FRAME_INDENT
-
-
 @contextmanager
 def blank(
     height: float,
@@ -377,11 +372,12 @@ def blank(
         width: Of the whole picture.
         entries: What the marks mean, written above.
         heading: Written in bold above everything else.
-        note: Written below everything else.
+        note: Written below everything else, on as many lines as it needs.
     """
     rows = _key_rows(entries)
     head = (line_height() + 4 if heading else 0.0) + len(rows) * _KEY_ROW
-    foot = line_height() + 6 if note else 0.0
+    below = wrap(note, width - 2 * theme.MARGIN) if note else ()
+    foot = line_height() * len(below) + 6 if below else 0.0
     total = 2 * theme.MARGIN + head + height + foot
     with mpl_style.context(["default", theme.RC]):
         figure = Figure(figsize=(width / theme.DPI, total / theme.DPI), dpi=theme.DPI)
@@ -394,8 +390,8 @@ def blank(
             canvas.text(theme.MARGIN, top - line_height() / 2, heading, weight="bold")
         for rank, row in enumerate(reversed(rows)):
             _draw_key_row(canvas, row, canvas.top + (rank + 0.5) * _KEY_ROW)
-        if note:
-            canvas.text(theme.MARGIN, theme.MARGIN, note, theme.MUTED)
+        for rank, words in enumerate(reversed(below)):
+            canvas.text(theme.MARGIN, theme.MARGIN + rank * line_height(), words, theme.MUTED)
         yield canvas
 
 

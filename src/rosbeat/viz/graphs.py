@@ -13,7 +13,13 @@ from dataclasses import dataclass, field, replace
 
 from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
 from rosbeat.errors import PictureError, called_as
-from rosbeat.records import GraphSnapshot
+from rosbeat.records import (
+    ACTION_PART,
+    INFRASTRUCTURE_TOPICS,
+    Endpoint,
+    GraphSnapshot,
+    is_hidden,
+)
 from rosbeat.viz import sources, theme
 from rosbeat.viz.canvas import (
     BROKEN,
@@ -22,7 +28,6 @@ from rosbeat.viz.canvas import (
     Canvas,
     blank,
     cornered,
-    least_frame_width,
     line_height,
     smooth,
     text_width,
@@ -32,21 +37,140 @@ from rosbeat.viz.layout import (
     Layering,
     Placement,
     Point,
-    Rim,
-    clustered,
-    enclosed,
     layering,
     needed,
     place,
 )
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.wiring import Edge, Wiring, describe, node_key, short_type, topic_key, wiring
+from rosbeat.viz.words import count, listing, sentence_case
 
 #: Widest line of a name in CSS pixels, tried in this order.
 _LIMITS = (200.0, 150.0, 115.0, 95.0)
 _TOPIC_PADDING, _NOTE_PADDING = (13.0, 7.0), (5.0, 5.0)
 #: Begins the key of a note.
 _NOTE = "note "
+_OTHER = {"publisher": "subscription", "subscription": "publisher"}
+_NOBODY = {"publisher": "nobody subscribes", "subscription": "nobody publishes"}
+_QOS = "QoS does not match"
+_TYPE = "types differ"
+
+
+# Who talks to whom: vertices and edges, with what is wrong.
+
+
+@dataclass(frozen=True)
+class Edge:
+    """Hold one arrow: a publisher's node to a topic, or a topic to a subscription's node.
+
+    Attributes:
+        source: Key of the node or topic where it begins.
+        target: Key of the topic or node where it ends.
+        fault: Why nothing passes: empty if something does.
+        has_head: Whether it ends in a head.
+    """
+
+    source: str
+    target: str
+    fault: str = ""
+    has_head: bool = True
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """Hold what a graph picture shows.
+
+    Attributes:
+        nodes: Names of the nodes shown, in order of creation.
+        topics: Names of the topics shown with their types, in order of first use.
+        edges: The arrows. A topic may have the name of a node, so ends are keys made by
+            `node_key` and `topic_key`.
+        hidden: Names of nodes left out because a part of their name begins with `_`.
+        processes: The nodes shown that share a process, for each process with more than one.
+    """
+
+    nodes: tuple[str, ...]
+    topics: dict[str, tuple[str, ...]]
+    edges: tuple[Edge, ...]
+    hidden: tuple[str, ...] = ()
+    processes: tuple[tuple[str, ...], ...] = ()
+
+    def around(self, topic: str) -> tuple[list[Edge], list[Edge]]:
+        """Return the edges into a topic and those out of it."""
+        key = topic_key(topic)
+        into = [edge for edge in self.edges if edge.target == key]
+        return into, [edge for edge in self.edges if edge.source == key]
+
+    def faults(self, topic: str) -> tuple[str, ...]:
+        """Return what is wrong around a topic, each kind once."""
+        into, out = self.around(topic)
+        return tuple(dict.fromkeys(edge.fault for edge in into + out if edge.fault))
+
+
+def node_key(name: str) -> str:
+    """Return the key of a node among edges."""
+    return f"node {name}"
+
+
+def topic_key(name: str) -> str:
+    """Return the key of a topic among edges."""
+    return f"topic {name}"
+
+
+def short_type(type_name: str) -> str:
+    """Return a type without its package: `Float32`."""
+    return type_name.rsplit("/", 1)[-1]
+
+
+def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:
+    """Return the part of a graph that a picture shows, with what every node brings if wanted."""
+    names = tuple(dict.fromkeys([*graph.nodes, *(end.node for end in graph.endpoints)]))
+    nodes = tuple(name for name in names if not is_hidden(name))
+    ends = [end for end in graph.endpoints if end.kind in _OTHER]
+    if not infrastructure:
+        ends = [one for one in ends if one.name not in INFRASTRUCTURE_TOPICS]
+        ends = [one for one in ends if ACTION_PART not in one.name]
+    shown = [end for end in ends if end.node in nodes]
+    types: dict[str, tuple[str, ...]] = {}
+    for end in shown:
+        types[end.name] = tuple(dict.fromkeys((*types.get(end.name, ()), end.type_name)))
+    hidden, processes = tuple(filter(is_hidden, names)), shared(graph.processes, nodes)
+    return Wiring(nodes, types, _edges(shown, ends), hidden, processes)
+
+
+def _edges(shown: Iterable[Endpoint], every: list[Endpoint]) -> tuple[Edge, ...]:
+    found: dict[tuple[str, str], str] = {}
+    for end in shown:
+        ends = (node_key(end.node), topic_key(end.name))
+        pair = ends if end.kind == "publisher" else (ends[1], ends[0])
+        fault = _fault(end, every)
+        # Two endpoints of one node on one topic are one arrow; it is broken only if both are.
+        found[pair] = fault if found.get(pair, fault) else ""
+    return tuple(Edge(source, target, fault) for (source, target), fault in found.items())
+
+
+def _fault(end: Endpoint, every: list[Endpoint]) -> str:
+    others = [one for one in every if one.name == end.name and one.kind == _OTHER[end.kind]]
+    if end.matched > 0:
+        return ""
+    if not others:
+        return _NOBODY[end.kind]
+    if end.matched < 0:
+        return ""
+    return _QOS if any(one.type_name == end.type_name for one in others) else _TYPE
+
+
+def shared(
+    processes: Iterable[Iterable[str]], nodes: Collection[str]
+) -> tuple[tuple[str, ...], ...]:
+    """Return the nodes of each process, as far as several of them are among `nodes`."""
+    taken: set[str] = set()
+    found: list[tuple[str, ...]] = []
+    for process in processes:
+        # Nodes of one name have one place in a picture, so it is in one process.
+        names = [name for name in dict.fromkeys(process) if name in nodes and name not in taken]
+        taken.update(names)
+        found.append(tuple(names))
+    return tuple(names for names in found if len(names) > 1)
 
 
 # What is written in boxes, and how large that makes them.
@@ -158,10 +282,6 @@ class Marked:
         """Return the keys of the notes."""
         return [key for key in self.words if key.startswith(_NOTE)]
 
-    def edges(self) -> list[Edge]:
-        """Return all arrows: along topics, and from clients to those who offer what they use."""
-        return [*self.wiring.edges, *(edge for one in self.wiring.offers for edge in one.edges)]
-
 
 def marked(source: Explanation, infrastructure: bool = False) -> Marked:
     """Mark the causes in the graph of an explanation."""
@@ -201,22 +321,6 @@ def _noted(made: Marked, mark: Mark, source: str, target: str) -> Marked:
     return replace(made, wiring=shown, words={**made.words, key: mark.words})
 
 
-def say(source: Explanation) -> str:
-    """Tell what is marked, in whole sentences."""
-    return " ".join((source.title, *map(_say_mark, source.marks)))
-
-
-def _say_mark(mark: Mark) -> str:
-    words = " ".join(mark.words)
-    if mark.kind == NODE:
-        return f"{mark.subject} has a cross: {words}."
-    if mark.kind == TWINS:
-        return f"{mark.subject} stands for several nodes: {words}."
-    if mark.kind in (LINK, NEAR):
-        return f"Between {mark.subject} and {mark.other} is a broken line: {words}."
-    return f"{mark.subject} is dashed: {words}."
-
-
 # The picture.
 
 
@@ -228,10 +332,8 @@ def graph(
 ) -> Picture:
     """Draw which nodes publish to which topics and which nodes subscribe.
 
-    Nodes that share a process have a frame around them, with what only they use.
-
-    Services and actions have boxes, too, with what they are below their names; an arrow leads from
-    who uses one to who offers it. What every node brings along is left out.
+    Which nodes share a process is written below. Services and actions are left out, as rqt_graph
+    leaves them out.
 
     An arrow is dashed where nothing passes: nobody is on the other side, the qualities of service
     do not match, or the types differ. Nodes whose name has a part that begins with `_` are left
@@ -257,8 +359,7 @@ def graph(
             "The graph was taken before a node was added, or all of its nodes are hidden.",
             "Add a node to the session first.",
         )
-    offered = (offer.name for offer in shown.wiring.offers)
-    known = (*shown.wiring.nodes, *shown.wiring.topics, *offered)
+    known = (*shown.wiring.nodes, *shown.wiring.topics)
     strong = {
         sources.known_name(name, known, "node or topic") for name in sources.names_in(highlight)
     }
@@ -268,7 +369,8 @@ def graph(
     width, height = arranged.size
     # Boxes that just fit may be wider by an error of rounding.
     width = max(theme.WIDTH, round(width + 2 * theme.MARGIN, 3))
-    with blank(height, width) as canvas:
+    note = " ".join(say_shared(shown.plain.processes))
+    with blank(height, width, note=note) as canvas:
         _draw(canvas, shown, arranged)
     return Picture(canvas.figure, words + describe(shown.plain), "Nodes and topics")
 
@@ -301,9 +403,8 @@ def arrange(shown: Marked, strong: Collection[str] = ()) -> Arrangement:
         shown: The graph.
         strong: Full names of nodes and topics whose names are bold.
     """
-    plan = _rimmed(_plan(shown), down=False)
+    plan = _plan(shown)
     down = not any(_fits(plan, _labels(shown, (), limit)) for limit in _LIMITS)
-    plan = _rimmed(plan, down)
     for limit in _LIMITS:
         labels = _labels(shown, strong, limit)
         made = Arrangement(labels, place(plan, _sizes(labels, down), 0.0 if down else ROOM), down)
@@ -320,23 +421,8 @@ def _plan(shown: Marked) -> Layering:
     starts = {node_key(name): 0 for name in shown.wiring.nodes}
     starts.update((topic_key(name), 1) for name in shown.wiring.topics)
     starts.update(dict.fromkeys(shown.notes, 1))
-    starts.update((offer.key, 1) for offer in shown.wiring.offers)
-    links = [(edge.source, edge.target) for edge in shown.edges()]
-    plan = layering(starts, links)
-    if shown.wiring.processes:
-        groups = [list(map(node_key, names)) for names in shown.wiring.processes]
-        others = [name for name, column in starts.items() if column == 1]
-        plan = clustered(plan, enclosed(groups, [*plan.chains, *plan.back], others))
-    return plan
-
-
-def _rimmed(plan: Layering, down: bool) -> Layering:
-    """Return the plan with room in its frames for the label on the upper edge, left."""
-    width = least_frame_width()
-    if down:
-        # Arrows come in over the upper edge, too, so the boxes stand beside the label.
-        return replace(plan, rim=Rim((16.0, width - 8), (10.0, 10.0)))
-    return replace(plan, rim=Rim((10.0, 16.0), (10.0, 10.0), (width, 0.0)))
+    links = [(edge.source, edge.target) for edge in shown.wiring.edges]
+    return layering(starts, links)
 
 
 def _sizes(labels: dict[str, Label], down: bool) -> dict[str, Point]:
@@ -358,9 +444,6 @@ def _labels(shown: Marked, strong: Collection[str], limit: float) -> dict[str, L
         key, short = topic_key(name), map(short_type, types)
         wrong, dashed = shown.plain.faults(name) or shown.words.get(key, ()), key in shown.dashed
         labels[key] = _label("topic", name, limit, name in strong, short, wrong, dashed)
-    for offer in shown.wiring.offers:
-        kind = f"{offer.word} {short_type(offer.type_name)}"
-        labels[offer.key] = _label("topic", offer.name, limit, offer.name in strong, [kind])
     return labels
 
 
@@ -371,12 +454,7 @@ def _draw(canvas: Canvas, shown: Marked, arranged: Arrangement) -> None:
         x, y = arranged.at(point)
         return left + x, canvas.top - y
 
-    for frame in placed.frames:
-        half = frame.length / 2, frame.breadth / 2
-        begin = at((frame.along - half[0], frame.across - half[1]))
-        end = at((frame.along + half[0], frame.across + half[1]))
-        canvas.frame(begin[0], end[1], end[0], begin[1])
-    for edge in shown.edges():
+    for edge in shown.wiring.edges:
         link, stroke = (edge.source, edge.target), BROKEN if edge.fault else PLAIN
         is_forward = link in placed.routes
         points = [*map(at, placed.routes[link] if is_forward else placed.returns[link])]
@@ -384,3 +462,63 @@ def _draw(canvas: Canvas, shown: Marked, arranged: Arrangement) -> None:
         canvas.arrow(path, stroke, edge.has_head)
     for name, box in placed.boxes.items():
         arranged.labels[name].draw(canvas, *at((box.along, box.across)))
+
+
+# The same in words.
+
+
+def describe(shown: Wiring) -> str:
+    """Tell the wiring in whole sentences."""
+    head = f"{count(len(shown.nodes), 'node')} and {count(len(shown.topics), 'topic')}."
+    said = [sentence_case(head), *(_say_topic(shown, topic) for topic in shown.topics)]
+    busy = {end for edge in shown.edges for end in (edge.source, edge.target)}
+    alone = [name for name in shown.nodes if node_key(name) not in busy]
+    if alone:
+        verb = "uses" if len(alone) == 1 else "use"
+        said.append(f"{listing(alone)} {verb} no topic.")
+    said += say_shared(shown.processes)
+    if shown.hidden:
+        said.append(f"Left out: {count(len(shown.hidden), 'hidden node')}.")
+    return " ".join(said)
+
+
+def say_shared(processes: Iterable[tuple[str, ...]]) -> list[str]:
+    """Tell which nodes share a process, in whole sentences."""
+    return [f"{listing(names)} share one process." for names in processes]
+
+
+def _say_topic(shown: Wiring, topic: str) -> str:
+    into, out = shown.around(topic)
+    types = listing(map(short_type, shown.topics[topic]))
+    writers = listing(edge.source.removeprefix("node ") for edge in into) or _outside(out)
+    readers = listing(edge.target.removeprefix("node ") for edge in out) or _outside(into)
+    said = [f"{topic} ({types}): published by {writers}, subscribed to by {readers}."]
+    for fault in shown.faults(topic):
+        if fault in _NOBODY.values():
+            said.append(f"There, {fault}, so no message passes.")
+        else:
+            ends = [edge.source for edge in into if edge.fault == fault]
+            ends += [edge.target for edge in out if edge.fault == fault]
+            said.append(f"There, {fault} for {listing(one.removeprefix('node ') for one in ends)}.")
+    return " ".join(said)
+
+
+def _outside(edges: list[Edge]) -> str:
+    """Return who is on the other side when no node of the graph is."""
+    return "another process" if any(not edge.fault for edge in edges) else "nobody"
+
+
+def say(source: Explanation) -> str:
+    """Tell what is marked, in whole sentences."""
+    return " ".join((source.title, *map(_say_mark, source.marks)))
+
+
+def _say_mark(mark: Mark) -> str:
+    words = " ".join(mark.words)
+    if mark.kind == NODE:
+        return f"{mark.subject} has a cross: {words}."
+    if mark.kind == TWINS:
+        return f"{mark.subject} stands for several nodes: {words}."
+    if mark.kind in (LINK, NEAR):
+        return f"Between {mark.subject} and {mark.other} is a broken line: {words}."
+    return f"{mark.subject} is dashed: {words}."

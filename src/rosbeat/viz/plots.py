@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -248,15 +247,12 @@ def _name_bands(canvas: Canvas, axes: Axes, ranges: Sequence[Band], unit: str) -
     """Write each band's name beside its middle, moved as little as keeps the names apart."""
     bottom, top = axes.get_ylim()
     x = canvas.width - theme.MARGIN - _room_for_names(ranges, unit)
-    wishes = {}
+    wishes = []
     for band in ranges:
         part = (sum(_visible(axes, band)) / 2 - bottom) / (top - bottom)
-        wishes[band.name] = canvas.bottom + _FOOT + part * _PLOT
-    high = line_height() + line_height()
-    rules = [(one, other, high) for one, other in itertools.pairwise(wishes)]
-    places = apart(wishes, list(wishes), rules)
-    for band in ranges:
-        y = places[band.name]
+        wishes.append(canvas.bottom + _FOOT + part * _PLOT)
+    places = apart(wishes, [2 * line_height()] * (len(ranges) - 1))
+    for band, y in zip(ranges, places, strict=True):
         canvas.text(x, y + line_height() / 2, band.name, weight="bold")
         limits = band.words(unit)
         canvas.text(x, y - line_height() / 2, limits, theme.MUTED)

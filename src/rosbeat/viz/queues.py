@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import itertools
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast
 
 from matplotlib.patches import Rectangle
 
@@ -73,13 +71,7 @@ def moments(steps: Sequence[QueueStep]) -> list[Moment]:
 
 
 @called_as('viz.queue(ros, "temperature")')
-def queue(
-    source: Observed | Sequence[QueueStep],
-    topic: str | int | None = None,
-    depth: int | None = None,
-    *,
-    node: str | None = None,
-) -> Picture:
+def queue(source: Observed, topic: str | None = None, *, node: str | None = None) -> Picture:
     """Draw a subscription's queue filling, emptying and dropping.
 
     One column for every moment at which something happened, from left to right; in it the messages
@@ -91,27 +83,22 @@ def queue(
         source: A session, or what it observed.
         topic: The topic's name; `temperature` and `/temperature` are the same. None for the only
             one that has a subscription.
-        depth: Queue length in messages, of steps only; a session knows the length.
         node: The node that subscribes, if several do.
 
     Raises:
         PictureError: If `source` is no session, the topic has no subscription or several, no
             message arrived there, or some expired in the queue.
     """
-    if isinstance(source, Sequence):
-        words = "`viz.queue(steps, depth)` is deprecated: `viz.queue(ros, topic)` takes a session."
-        warnings.warn(words, DeprecationWarning, stacklevel=3)
-        return of_steps(source, topic if depth is None else depth)
     seen = observed(source, "a session")
     end = _subscription(seen, topic, node)
     return of_steps(_steps(seen, end), end.qos.depth)
 
 
-def _subscription(seen: Observation, topic: object, node: str | None) -> Endpoint:
+def _subscription(seen: Observation, topic: str | None, node: str | None) -> Endpoint:
     """Return the one subscription whose queue is drawn."""
     graph = seen.graph
     known = [name for name in graph.topics() if graph.on(name, "subscription")]
-    (name, *others) = topic_names(cast("str | None", topic), known) or ("",)
+    (name, *others) = topic_names(topic, known) or ("",)
     ends = graph.on(name, "subscription")
     if node is not None:
         wanted = known_name(node, [end.node for end in ends], "subscription of the node")
@@ -142,53 +129,29 @@ def _steps(seen: Observation, end: Endpoint) -> Sequence[QueueStep]:
     return queue_steps(arrived, taken, end.qos.depth)
 
 
-def of_steps(steps: Sequence[QueueStep], depth: object) -> Picture:
-    """Draw the steps of a queue.
-
-    Args:
-        steps: From `rosbeat.records.queue_steps`.
-        depth: Queue length in messages, at least 1.
+def of_steps(steps: Sequence[QueueStep], depth: int) -> Picture:
+    """Draw the steps of a queue, from `rosbeat.records.queue_steps` with the same depth.
 
     Raises:
-        PictureError: If these are no steps, or there are none, or the depth is below 1 or below
-            what waited.
+        PictureError: If there are none.
     """
-    length = _checked(steps, depth)
-    every = moments(steps)
-    shown = every[:MOST_MOMENTS]
-    note = not_shown(len(every) - len(shown), "later moment")
-    cell = max(3.0, min(_CELL, 264 / length))
-    height = _HEAD + length * cell + _FOOT
-    with blank(height, entries=_key(shown, length), note=note) as canvas:
-        grid = _Grid(canvas.bottom + _FOOT, min(_WIDEST, ROOM / len(shown)), cell)
-        _draw(canvas, shown, length, grid)
-    return Picture(
-        canvas.figure, f"{describe(every, length)} {note}".strip(), "A queue filling and dropping"
-    )
-
-
-def _checked(steps: Sequence[QueueStep], depth: object) -> int:
-    """Return the depth, if it is one and fits the steps."""
-    if not isinstance(steps, Sequence) or not all(isinstance(one, QueueStep) for one in steps):
-        raise PictureError(
-            "A picture of a queue is drawn from a session, and this is none.",
-            "A session has recorded what came, and when the callback took it.",
-            'Give it the session and the topic: `viz.queue(ros, "temperature")`.',
-        )
     if not steps:
         raise PictureError(
             "There is nothing to draw of this queue.",
             "No message arrived, so nothing waited, was taken or was dropped.",
             "Let the session run until messages arrive.",
         )
-    longest = max(step.length for step in steps)
-    if not isinstance(depth, int) or depth < max(1, longest):
-        raise PictureError(
-            f"A queue of depth {depth!r} does not fit these steps.",
-            f"In them up to {count(longest, 'message')} wait at once; a depth is at least 1.",
-            "Give the same depth as to `queue_steps`.",
-        )
-    return depth
+    every = moments(steps)
+    shown = every[:MOST_MOMENTS]
+    note = not_shown(len(every) - len(shown), "later moment")
+    cell = max(3.0, min(_CELL, 264 / depth))
+    height = _HEAD + depth * cell + _FOOT
+    with blank(height, entries=_key(shown, depth), note=note) as canvas:
+        grid = _Grid(canvas.bottom + _FOOT, min(_WIDEST, ROOM / len(shown)), cell)
+        _draw(canvas, shown, depth, grid)
+    return Picture(
+        canvas.figure, f"{describe(every, depth)} {note}".strip(), "A queue filling and dropping"
+    )
 
 
 @dataclass(frozen=True)

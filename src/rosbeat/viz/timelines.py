@@ -29,8 +29,8 @@ from rosbeat.records import (
 )
 from rosbeat.viz import sources, theme
 from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, smooth
+from rosbeat.viz.graphs import say_shared, shared
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.wiring import say_shared, shared
 from rosbeat.viz.words import count, listing, not_shown, number, seconds
 
 #: More messages and callbacks than this cannot be told apart in one picture.
@@ -157,24 +157,19 @@ class Happenings:
         """Return the runs that take time, and have a bar."""
         return [run for run in self.runs if run.waits]
 
-    def level_at(self, node: str, time_ns: int, callback: str = "", topic: str = "") -> int:
-        """Return the level of what a node does at an instant; the first, if it does several things.
+    def level_at(self, node: str, time_ns: int) -> int:
+        """Return the level of what a node begins or goes on with at an instant; the first of them.
 
         Args:
             node: Full name of the node.
             time_ns: The instant, in nanoseconds of virtual time.
-            callback: Name of the callback function that does it, if it is known.
-            topic: The topic whose message it takes, if it takes one.
         """
-        found = [0]
-        for run in self.runs:
-            if run.node == node and callback in ("", run.callback):
-                takes = (run.kind, run.source) == ("subscription", topic)
-                resumes = any(wait.until_ns == time_ns for wait in run.waits)
-                begins = run.time_ns == time_ns
-                if (begins and takes) if topic else (begins or resumes):
-                    found.append(run.level)
-        return min(found[1:], default=0)
+        levels = (
+            run.level
+            for run in self.runs
+            if run.node == node and time_ns in (run.time_ns, *(wait.until_ns for wait in run.waits))
+        )
+        return min(levels, default=0)
 
 
 def happenings(
@@ -435,7 +430,7 @@ class _Drawing:
             y = self._y(_node_of(log), shown.level_at(_node_of(log), log.time_ns)) - 13
             self._mark(self._scale(log.time) + 9, y, look, 6)
         for fault in shown.faults:
-            level = shown.level_at(fault.node, fault.time_ns, fault.callback)
+            level = shown.level_at(fault.node, fault.time_ns)
             self._mark(self._scale(fault.time), self._y(fault.node, level), _FAULT, 11)
 
     def _y(self, node: str, level: int = 0) -> float:
@@ -459,7 +454,7 @@ class _Drawing:
         look = _topic_style(self._shown, message.topic)
         for target in message.targets:
             if target in self._rank and target != message.source:
-                level = self._shown.level_at(target, message.time_ns, topic=message.topic)
+                level = self._shown.level_at(target, message.time_ns)
                 end = self._y(target, level)
                 end += 6 if y > end else -6
                 path = Path([(x, y), (x, end)])

@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import product
 
 import pytest
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosbags.rosbag2 import Reader
 
 import rosbeat.bags
@@ -91,27 +90,6 @@ def test_quality_of_service_comes_back(tmp_path, storage):
     text = (tmp_path / "run" / "metadata.yaml").read_text()
     assert "sec: 9223372036\n" in text
     assert "nsec: 854775807\n" in text
-
-
-@pytest.mark.ros
-@pytest.mark.parametrize("storage", STORAGES)
-def test_what_the_publishers_offered_is_in_the_metadata(tmp_path, storage):
-    stored = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    hasty = QoSProfile(depth=7, reliability=ReliabilityPolicy.BEST_EFFORT)
-    with Session() as ros:
-        ros.add(lambda: Talker("one", qos=stored))
-        ros.add(lambda: Talker("two", qos=hasty))
-        ros.run(2)
-        bag = record(ros, tmp_path / "run", storage=storage)
-    assert bag.qos == {
-        "/count": (
-            QoS("RELIABLE", "TRANSIENT_LOCAL", "KEEP_LAST", 3),
-            QoS("BEST_EFFORT", "VOLATILE", "KEEP_LAST", 7),
-        )
-    }
-    text = (tmp_path / "run" / "metadata.yaml").read_text()
-    assert "version: 9" in text
-    assert "durability: transient_local" in text
 
 
 def test_it_describes_itself(tmp_path):

@@ -2,13 +2,16 @@
 
 import json
 import math
-from itertools import pairwise
+import re
+from itertools import combinations, pairwise
 
 import pytest
 
-from rosbeat.panel.panel import BEAT, BEATS_FOR, LONGEST_WAIT, WINDOW, FlowControl
-from rosbeat.panel.sampling import KEPT_LINES, LINES_PER_FRAME, POINTS, Sampler
+from made_records import FLOAT, STRING, graph_of, pub, sub
+from rosbeat.panel.panel import RARE_RETRY, RETRY, RETRY_FOR, WINDOW, FlowControl
+from rosbeat.panel.sampling import KEPT_LINES, LINES_PER_FRAME, POINTS, Sampler, layout
 from rosbeat.records import Fault, GraphSnapshot, LogRecord
+from rosbeat.viz.graphs import wiring
 
 
 def said(text, level="INFO", time_ns=0):
@@ -166,6 +169,59 @@ def test_an_exception_is_in_the_log(made_up, sampler):
     assert line[3] == "stopped in talk: ZeroDivisionError: by zero, line 3: 1 / 0"
 
 
+# The graph.
+
+
+def ring(count, kind=FLOAT):
+    """Every node hears the one before."""
+    ends = []
+    for k in range(count):
+        ends += [pub(f"/node{k}", f"/ring{k}", 1, kind)]
+        ends += [sub(f"/node{k}", f"/ring{(k - 1) % count}", 1, kind)]
+    return wiring(graph_of(*ends))
+
+
+@pytest.mark.parametrize(("count", "flow", "side"), [(1, "x", "w"), (6, "y", "h")])
+def test_boxes_lie_inside_and_apart_and_arrows_begin_and_end_at_them(count, flow, side):
+    """A graph that is too wide for a page runs down, in the panel as in a picture."""
+    placed = layout(ring(count))
+    boxes = {box["key"]: box for box in placed["boxes"]}
+    assert len(boxes) == len(placed["edges"]) == 2 * count
+    for at, size, whole in (("x", "w", "width"), ("y", "h", "height")):
+        assert all(
+            box[size] / 2 < box[at] < placed[whole] - box[size] / 2 for box in boxes.values()
+        )
+    for one, other in combinations(boxes.values(), 2):
+        aside = abs(one["x"] - other["x"]) >= (one["w"] + other["w"]) / 2
+        assert aside or abs(one["y"] - other["y"]) >= (one["h"] + other["h"]) / 2
+    first, across = (0, "y") if flow == "x" else (1, "x")
+    for edge in placed["edges"]:
+        start, end = boxes[edge["from"]], boxes[edge["to"]]
+        found = [float(text) for text in re.findall(r"-?\d+\.\d", edge["path"])]
+        assert found[first] == pytest.approx(start[flow] + start[side] / 2, abs=0.2)
+        assert found[first - 2] == pytest.approx(end[flow] - end[side] / 2, abs=0.2)
+        assert found[-1 - first] == pytest.approx(end[across], abs=0.2)
+
+
+def test_what_is_wrong_is_marked_below_a_name_that_may_have_several_lines():
+    name = "/window_state_of_the_greenhouse_in_the_north"
+    placed = layout(wiring(graph_of(pub("/window", name, 0))))
+    node, topic = sorted(placed["boxes"], key=lambda box: box["kind"])
+    assert (node["lines"], node["rows"], topic["broken"]) == (["/window"], 1, True)
+    assert "".join(topic["lines"][: topic["rows"]]) == name
+    assert topic["lines"][topic["rows"] :] == ["Float32", "nobody subscribes"]
+    assert placed["edges"][0]["fault"] == "nobody subscribes"
+    assert "nobody subscribes" in placed["words"]
+
+
+def test_only_numbers_are_offered_to_the_slider_and_nothing_at_all_has_a_layout_too():
+    assert layout(ring(2))["numeric"] == ["/ring0", "/ring1"]
+    assert layout(ring(2, STRING))["numeric"] == []
+    placed = layout(wiring(GraphSnapshot()))
+    assert placed["boxes"] == placed["edges"] == []
+    assert placed["width"] > 0
+
+
 # When a frame may be sent.
 
 
@@ -193,23 +249,13 @@ def test_a_browser_that_answers_gets_every_frame(flow):
     assert not flow.asked
 
 
-def test_a_browser_that_sleeps_for_an_hour_gets_hardly_any(flow):
-    assert WINDOW + 5 < len(sent_within(flow, 0, 3600)) < 3600 / LONGEST_WAIT + 20
-
-
-def test_silence_is_never_longer_than_a_beat_until_nobody_seems_to_be_there(flow):
-    times = [10 + k / 20 for k in range(1, round(20 * BEATS_FOR))]
-    came = [now for now in times if signs_of_life(flow, now)]
-    assert max(b - a for a, b in pairwise(came)) <= BEAT + 0.1
-    later = [now for now in range(700, 720) if flow.beats(now)]
-    assert later == []
-    flow.heard(flow.number, 720)
-    assert flow.beats(722)
-    assert not flow.beats(722.5)
-
-
-def signs_of_life(flow, now):
-    return flow.sent(now) if flow.may_send(now) else flow.beats(now)
+def test_one_that_sleeps_gets_a_frame_a_second_and_after_a_while_hardly_any(flow):
+    times = [10 + k / 20 for k in range(round(20 * (RETRY_FOR + 3000)))]
+    came = [now for now in times if flow.may_send(now) and flow.sent(now)]
+    gaps = [b - a for a, b in pairwise(came)]
+    assert max(gaps[: WINDOW + 500]) <= RETRY + 0.1
+    assert gaps[-1] == pytest.approx(RARE_RETRY, abs=0.1)
+    assert WINDOW + RETRY_FOR < len(came) < WINDOW + RETRY_FOR / RETRY + 3000 / RARE_RETRY + 20
 
 
 def test_when_it_wakes_up_all_is_as_before(flow):
@@ -217,7 +263,7 @@ def test_when_it_wakes_up_all_is_as_before(flow):
     flow.heard(last, 600)
     assert len(sent_within(flow, 600, 0.3)) == WINDOW
     assert not flow.may_send(600.4)
-    assert flow.may_send(601)
+    assert flow.may_send(600.3 + RETRY)
 
 
 def test_a_new_view_begins_anew_although_the_old_one_never_answered(flow):

@@ -13,7 +13,7 @@ from ipywidgets.widgets.widget import _instances
 from notebooks.kernel import WatchedKernel
 from rosbeat.errors import SessionError
 from rosbeat.panel import panel as panels
-from rosbeat.panel.panel import Panel, is_for_a_browser, still
+from rosbeat.panel.panel import WINDOW, Panel, is_for_a_browser, still
 from rosbeat.records import GraphSnapshot
 
 
@@ -111,14 +111,13 @@ def test_frames_are_numbered_and_stop_when_nobody_answers(panel, frames, eventua
     eventually(lambda: len(frames) >= 6)
     panel._heard({"got": 6})
     eventually(lambda: len(frames) >= 8)
-    numbered = [frame for frame in frames if "number" in frame]
-    assert [frame["number"] for frame in numbered] == list(range(1, len(numbered) + 1))
-    assert [frame["whole"] for frame in numbered] == [True] + [False] * (len(numbered) - 1)
+    found = [(frame["number"], frame["whole"]) for frame in list(frames)]
+    assert found == [(k, k == 1) for k in range(1, len(found) + 1)]
 
 
-def test_a_browser_that_answers_nothing_hears_that_the_kernel_is_there(panel, frames, eventually):
+def test_a_browser_that_answers_nothing_still_hears_of_the_kernel(panel, frames, eventually):
     panel._heard({"do": "open"})
-    eventually(lambda: {"beat": True} in frames)
+    eventually(lambda: len(frames) > WINDOW)
 
 
 def test_a_second_view_gets_everything(panel, frames, eventually):

@@ -8,7 +8,7 @@ import pytest
 from made_records import graph_of, pair, pub, sample
 from rosbeat.comparisons import compare
 from rosbeat.errors import PictureError
-from rosbeat.records import GraphSnapshot, LogRecord, Observation, queue_steps
+from rosbeat.records import GraphSnapshot, LogRecord, Observation
 from rosbeat.viz import comparison, graph, message_flow, queue, timeline, values
 from rosbeat.viz.queues import of_steps
 
@@ -36,8 +36,6 @@ REFUSED = {
     **{f"message_flow {wrong!r}": (partial(message_flow, wrong, []), "two processes")
        for wrong in (5, "a text", [1, 2], None)},
     "a receiver": (lambda: message_flow(SENT, 5), "two processes"),
-    **{f"steps {wrong!r}": (partial(of_steps, wrong, 10), "from a session")
-       for wrong in ([1, 2], "ab")},
     "queue": (lambda: queue(5), "cannot be drawn from 'int'"),
     "a comparison": (lambda: comparison(3), "cannot be drawn from 'int'"),
     # Nothing to draw.
@@ -69,8 +67,6 @@ REFUSED = {
     "no value of two runs": (lambda: comparison(compared("warm")), "is not a number"),
     **{f"until {until}": (partial(timeline, ONE, until=until), "cannot end at")
        for until in (-1, math.nan, "soon")},
-    **{f"depth {depth}": (partial(of_steps, queue_steps([0, 0], [], 2), depth), "does not fit")
-       for depth in (1, 0, 2.5)},
 }
 # fmt: on
 

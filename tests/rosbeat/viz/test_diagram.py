@@ -25,16 +25,6 @@ def outlines(picture):
     return [one.get_window_extent().extents for one in patches]
 
 
-def test_its_data_fit_together(name):
-    shown = DIAGRAMS[name]
-    boxes = [one.name for one in shown.boxes]
-    assert len(set(boxes)) == len(boxes)
-    assert len({(one.column, one.row) for one in shown.boxes}) == len(boxes)
-    assert {end for one in shown.arrows for end in (one.source, one.target)} <= set(boxes)
-    assert {box for frame in shown.frames for box in frame.boxes} <= set(boxes)
-    assert set(shown.bright) <= {*boxes, *(frame.words for frame in shown.frames)}
-
-
 def test_it_is_drawn_whole_and_nothing_overlaps(name):
     shown, picture = DIAGRAMS[name], diagram(name)
     assert is_tidy(picture)

@@ -1,4 +1,4 @@
-"""Pictures of the graph: what is drawn where, frames of processes, marked causes, words."""
+"""Pictures of the graph: what is drawn where, marked causes, words."""
 
 from dataclasses import replace
 from itertools import combinations
@@ -13,7 +13,7 @@ from rosbeat.diagnosis.situation import Beat, Condition, Scene
 from rosbeat.records import Endpoint, Observation, QoS
 from rosbeat.viz import graph, theme
 
-ADD, FIBONACCI = "example_interfaces/srv/AddTwoInts", "example_interfaces/action/Fibonacci"
+ADD = "example_interfaces/srv/AddTwoInts"
 LONG = "/building_a/floor_3/room_17/temperature"
 SIMPLE = graph_of(
     pub("/temperature_sensor", "/temperature"),
@@ -26,11 +26,6 @@ READERS = graph_of(
 CYCLE = graph_of(
     *(pub("/ping", "/ball"), sub("/pong", "/ball"), pub("/pong", "/back"), sub("/ping", "/back")),
     sub("/watcher", "/back"),
-)
-SERVICE = graph_of(
-    Endpoint("/client", "/add", ADD, "client", QoS()),
-    Endpoint("/server", "/add", ADD, "server", QoS()),
-    pub("/other", "/t", 0),
 )
 
 
@@ -148,8 +143,6 @@ def test_where_nothing_passes_the_arrow_is_dashed_and_says_why(ends, styles, fau
         (graph_of(sub("/b", "/t", 1)), "published by another process, subscribed to by /b"),
         (graph_of(pub("/a", "/t", 1)), "published by /a, subscribed to by another process"),
         (graph_of(pub("/a", "/t", -1), sub("/_watch", "/t", -1)), "Left out: 1 hidden node."),
-        (graph_of(Endpoint("/a", "/b/get_parameters", "rcl_interfaces/srv/A", "client", QoS())),
-         "offered by nobody, used by /a"),
         (replace(stages(4), processes=(("/stage_0", "/stage_1"), ("/stage_2", "/stage_3"))),
          "/stage_0 and /stage_1 share one process. /stage_2 and /stage_3 share one process."),
     ],
@@ -164,120 +157,35 @@ def test_hidden_nodes_are_left_out_but_still_listen():
     assert len(patches(picture, Polygon)) == 1
 
 
-def test_services_and_actions_lead_from_who_uses_one_to_who_offers_it():
+def test_services_and_actions_are_not_shown():
     ends = (
-        *SERVICE.endpoints[:2],
-        Endpoint("/server", "/heat", FIBONACCI, "action server", QoS()),
-        Endpoint("/server", "/heat/_action/send_goal", f"{FIBONACCI}_SendGoal", "server", QoS()),
-        Endpoint("/server", "/server/get_parameters", "rcl_interfaces/srv/A", "server", QoS()),
-        Endpoint("/_spy", "/ask", ADD, "server", QoS()),
+        Endpoint("/client", "/add", ADD, "client", QoS()),
+        Endpoint("/server", "/add", ADD, "server", QoS()),
+        pub("/server", "/heat/_action/status", 0),
     )
     picture = graph(graph_of(*ends))
-    names = ["/add", "/client", "/heat", "/server", "action Fibonacci", "service AddTwoInts"]
-    assert sorted(words_in(picture)) == names
-    assert len(patches(picture, Polygon)) == 3
-    assert picture.description == (
-        "2 nodes and no topics. /add (AddTwoInts) is a service: offered by /server, used by "
-        "/client. /heat (Fibonacci) is an action: offered by /server, used by nobody. Left out: 1 "
-        "hidden node."
-    )
-    assert is_tidy(picture)
+    assert sorted(words_in(picture)) == ["/client", "/server"]
+    assert "/client and /server use no topic." in picture.description
 
 
-# Frames around the nodes of one process.
-
-
-class Shown:
-    """What a finished picture has: frames, and boxes by the names written in them."""
-
-    def __init__(self, picture):
-        picture.figure.canvas.draw()
-        axes = picture.figure.axes[0]
-        patches = [one for one in axes.patches if isinstance(one, Ellipse | FancyBboxPatch)]
-        frames = [one for one in patches if one.get_zorder() < 1]
-        self.frames = [one.get_window_extent() for one in frames]
-        boxes = [one.get_window_extent() for one in patches if one not in frames]
-        self.labels = [one.get_text() for one in axes.texts if one.get_text() == "one process"]
-        names = [one for one in axes.texts if one.get_text().startswith("/")]
-        self.boxes = {
-            text.get_text(): next(box for box in boxes if box.contains(*middle(text)))
-            for text in names
-        }
-
-    def inside(self, frame):
-        """The names whose boxes are in a frame; every box is inside or outside as a whole."""
-        found = {name for name, box in self.boxes.items() if holds(frame, box)}
-        touched = {name for name, box in self.boxes.items() if frame.overlaps(box)}
-        assert found == touched
-        return found
-
-
-def middle(text):
-    box = text.get_window_extent()
-    return (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2
-
-
-def holds(frame, box):
-    across = frame.x0 < box.x0 and box.x1 < frame.x1
-    return across and frame.y0 < box.y0 and box.y1 < frame.y1
-
-
-# fmt: off
-FRAMES = {
-    "two of three, a topic that others use, too": (READERS, ["sensor logger"], ["sensor logger"]),
-    "all": (READERS, ["sensor monitor logger"], ["sensor monitor logger temperature"]),
-    "two processes of two nodes":
-        (stages(4), ["stage_0 stage_1", "stage_2 stage_3"],
-         ["stage_0 result_0 stage_1", "stage_2 result_2 stage_3"]),
-    "two processes that take turns":
-        (stages(4), ["stage_0 stage_2", "stage_1 stage_3"], ["stage_0 stage_2", "stage_1 stage_3"]),
-    "a long chain, which runs down":
-        (stages(6), ["stage_0 stage_1", "stage_3 stage_5"],
-         ["stage_0 result_0 stage_1", "stage_3 stage_5"]),
-    "short names": (graph_of(pub("/a", "/t"), pub("/b", "/t"), sub("/c", "/t")), ["a b"], ["a b"]),
-    "nodes without topics":
-        (graph_of(pub("/a", "/t"), sub("/b", "/t"), alone=["/p", "/q"]), ["p q"], ["p q"]),
-    "a cycle": (CYCLE, ["ping pong"], ["ping ball pong"]),
-    "a service": (SERVICE, ["client server"], ["client add server"]),
-    "two nodes of one name":
-        (READERS, ["sensor monitor sensor", "sensor logger"], ["sensor monitor"]),
-}
-# fmt: on
-
-
-def names(words):
-    return tuple(f"/{word}" for word in words.split())
-
-
-@pytest.mark.parametrize("case", FRAMES)
-def test_a_frame_holds_the_nodes_of_one_process_and_what_only_they_use(case):
-    shown, processes, wanted = FRAMES[case]
-    framed = replace(shown, processes=tuple(map(names, processes)))
-    picture = graph(framed)
-    found = Shown(picture)
-    assert sorted(map(sorted, map(found.inside, found.frames))) == sorted(
-        sorted(names(one)) for one in wanted
-    )
-    assert found.labels == ["one process"] * len(wanted)
-    for boxes in (found.frames, found.boxes.values()):
-        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
-    assert is_tidy(picture)
-    assert picture.figure.get_figwidth() * theme.DPI == theme.WIDTH
-    assert all(holds(picture.figure.bbox, frame) for frame in found.frames)
-    axes = picture.figure.axes[0]
-    labels = [one.get_window_extent() for one in axes.texts if "process" in one.get_text()]
-    heads = [one.get_window_extent() for one in axes.patches if one.get_zorder() == 2.5]
-    assert not any(label.overlaps(head) for label in labels for head in heads)
-    assert graph(framed).svg() == picture.svg()
-
-
-@pytest.mark.parametrize("processes", [(), (("/sensor",),), (("/sensor", "/_spy"),)])
-def test_without_shared_processes_the_picture_is_what_it_was(processes):
-    bare = graph_of(pub("/sensor", "/t"), sub("/monitor", "/t"), sub("/_spy", "/t"))
-    plain, other = graph(bare), graph(replace(bare, processes=processes))
-    assert other.svg() == plain.svg()
-    assert other.description == plain.description
-    assert "process" not in plain.description
+def test_which_nodes_share_a_process_is_written_below():
+    names = tuple(f"/building_a/floor_3/room_{k}/temperature_sensor" for k in range(6))
+    for bare, processes in (
+        (READERS, [("/sensor", "/logger", "/sensor")]),
+        (stages(4), [("/stage_0", "/stage_1"), ("/stage_2", "/stage_3")]),
+        (graph_of(alone=names), [names]),
+    ):
+        picture = graph(replace(bare, processes=tuple(processes)))
+        assert is_tidy(picture)
+        said = [line for line in words_in(picture) if line in picture.description]
+        assert sum("share one process." in line for line in said) >= 1
+    plain = graph_of(pub("/sensor", "/t"), sub("/monitor", "/t"), sub("/_spy", "/t"))
+    for alone in ((("/sensor",),), (("/sensor", "/_spy"),)):
+        picture = graph(replace(plain, processes=alone))
+        assert (picture.svg(), picture.description) == (
+            graph(plain).svg(),
+            graph(plain).description,
+        )
 
 
 # Causes of an explanation, marked.

@@ -173,25 +173,6 @@ def test_which_lines_are_one_message(sent, got, partner):
     assert partners(pairs(lines(*sent), lines(*got))) == partner
 
 
-@pytest.mark.parametrize(
-    ("sent", "got", "lost", "late", "early", "strange"),
-    [
-        ([(0, 0), (1, 1), (2, 2)], [(2.01, 2)], "", "", "0 1", ""),
-        ([(0, 0), (1, 1), (2, 2), (3, 3)], [(1.01, 1), (3.01, 3)], "2", "", "0", ""),
-        ([(0, 1), (1, 2), (2, 3), (3, 4)], [(0.1, 1), (2.1, 3)], "2", "4", "", ""),
-        ([(0, 1), (1, 2)], [], "", "", "1 2", ""),
-        ([(0, 1), (1, 2)], [(0.5, 99)], "", "2", "1", "99"),
-        ([(0, 1)], [(0.1, 1), (0.2, 99)], "", "", "", "99"),
-    ],
-)  # fmt: skip
-def test_what_was_sent_before_or_after_the_receiver_listened_is_not_called_lost(
-    sent, got, lost, late, early, strange
-):
-    found = pairs(lines(*sent), lines(*got))
-    groups = [found.those(fate) for fate in ("lost", "late", "early", "strange")]
-    assert [" ".join(line.words for line in one) for one in groups] == [lost, late, early, strange]
-
-
 def test_too_many_are_cut_on_both_sides():
     sent = lines(*((k / 10, k) for k in range(MOST + 40)))
     found = pairs(sent, lines(*((k / 10 + 0.001, k) for k in range(MOST + 40))))
@@ -199,7 +180,7 @@ def test_too_many_are_cut_on_both_sides():
     assert partners(found) == list(range(MOST))
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(6))
 def test_whatever_is_dropped_the_rest_is_paired_in_order(seed):
     rng = random.Random(seed)
     sent = [(at, rng.randint(18, 24)) for at in range(40)]

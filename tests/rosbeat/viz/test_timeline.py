@@ -345,7 +345,7 @@ spans = st.lists(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(spans)
 def test_runs_in_one_row_never_overlap(given_spans):
     calls = [call(begin, node, name) for begin, _, node, name in sorted(given_spans)]
