@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import isfinite
 from typing import TYPE_CHECKING, Any
@@ -238,6 +238,7 @@ def layout(shown: Wiring) -> dict[str, Any]:
         of them, from the top, are the name (`rows`), and place; `edges` with the keys of their
         ends, what is wrong there, and the path as SVG writes it; `words` that say the same.
     """
+    shown = replace(shown, offers=())
     arranged = arrange(Marked(shown, shown))
     width, height = arranged.size
     names = {node_key(name): name for name in shown.nodes}

@@ -53,6 +53,12 @@ _OTHER = {"publisher": "subscription", "subscription": "publisher"}
 _NOBODY = {"publisher": "nobody subscribes", "subscription": "nobody publishes"}
 _QOS = "QoS does not match"
 _TYPE = "types differ"
+_OFFERS = {
+    "server": "service",
+    "client": "service",
+    "action server": "action",
+    "action client": "action",
+}
 
 
 # Who talks to whom: vertices and edges, with what is wrong.
@@ -76,6 +82,36 @@ class Edge:
 
 
 @dataclass(frozen=True)
+class Offer:
+    """Hold a service or an action.
+
+    Attributes:
+        word: `service` or `action`.
+        name: Its full name.
+        type_name: Its type.
+        servers: The nodes that offer it; one, if all is well.
+        clients: The nodes that use it.
+    """
+
+    word: str
+    name: str
+    type_name: str
+    servers: tuple[str, ...] = ()
+    clients: tuple[str, ...] = ()
+
+    @property
+    def key(self) -> str:
+        """Return its key among the edges of a picture; a topic may have the same name."""
+        return f"{self.word} {self.name}"
+
+    @property
+    def edges(self) -> list[Edge]:
+        """Return its arrows: from who uses it to who offers it."""
+        used = [Edge(node_key(name), self.key) for name in self.clients]
+        return used + [Edge(self.key, node_key(name)) for name in self.servers]
+
+
+@dataclass(frozen=True)
 class Wiring:
     """Hold what a graph picture shows.
 
@@ -85,6 +121,7 @@ class Wiring:
         edges: The arrows. A topic may have the name of a node, so ends are keys made by
             `node_key` and `topic_key`.
         hidden: Names of nodes left out because a part of their name begins with `_`.
+        offers: Services and actions that a node offers or uses, those of every node left out.
         processes: The nodes shown that share a process, for each process with more than one.
     """
 
@@ -92,6 +129,7 @@ class Wiring:
     topics: dict[str, tuple[str, ...]]
     edges: tuple[Edge, ...]
     hidden: tuple[str, ...] = ()
+    offers: tuple[Offer, ...] = ()
     processes: tuple[tuple[str, ...], ...] = ()
 
     def around(self, topic: str) -> tuple[list[Edge], list[Edge]]:
@@ -134,7 +172,7 @@ def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:
     for end in shown:
         types[end.name] = tuple(dict.fromkeys((*types.get(end.name, ()), end.type_name)))
     hidden, processes = tuple(filter(is_hidden, names)), shared(graph.processes, nodes)
-    return Wiring(nodes, types, _edges(shown, ends), hidden, processes)
+    return Wiring(nodes, types, _edges(shown, ends), hidden, _offers(graph, nodes), processes)
 
 
 def _edges(shown: Iterable[Endpoint], every: list[Endpoint]) -> tuple[Edge, ...]:
@@ -157,6 +195,29 @@ def _fault(end: Endpoint, every: list[Endpoint]) -> str:
     if end.matched < 0:
         return ""
     return _QOS if any(one.type_name == end.type_name for one in others) else _TYPE
+
+
+def _offers(graph: GraphSnapshot, nodes: Collection[str]) -> tuple[Offer, ...]:
+    """Return the services and actions of some nodes, in order of first use."""
+    found: dict[tuple[str, str], list[Endpoint]] = {}
+    for end in graph.endpoints:
+        if end.kind in _OFFERS and end.node in nodes and not _is_brought(end, graph.nodes):
+            found.setdefault((_OFFERS[end.kind], end.name), []).append(end)
+    return tuple(
+        Offer(
+            *(word, name, ends[0].type_name),
+            tuple(dict.fromkeys(one.node for one in ends if one.kind.endswith("server"))),
+            tuple(dict.fromkeys(one.node for one in ends if one.kind.endswith("client"))),
+        )
+        for (word, name), ends in found.items()
+    )
+
+
+def _is_brought(end: Endpoint, nodes: Iterable[str]) -> bool:
+    """Return whether it belongs to an action, or to those that every node brings along."""
+    package = end.type_name.split("/")[0]
+    brought = package in ("rcl_interfaces", "type_description_interfaces")
+    return ACTION_PART in end.name or (brought and end.name.rpartition("/")[0] in nodes)
 
 
 def shared(
@@ -282,6 +343,10 @@ class Marked:
         """Return the keys of the notes."""
         return [key for key in self.words if key.startswith(_NOTE)]
 
+    def edges(self) -> list[Edge]:
+        """Return all arrows: along topics, and from clients to those who offer what they use."""
+        return [*self.wiring.edges, *(edge for one in self.wiring.offers for edge in one.edges)]
+
 
 def marked(source: Explanation, infrastructure: bool = False) -> Marked:
     """Mark the causes in the graph of an explanation."""
@@ -332,8 +397,10 @@ def graph(
 ) -> Picture:
     """Draw which nodes publish to which topics and which nodes subscribe.
 
-    Which nodes share a process is written below. Services and actions are left out, as rqt_graph
-    leaves them out.
+    Which nodes share a process is written below.
+
+    Services and actions have boxes, too, with what they are below their names; an arrow leads from
+    who uses one to who offers it. What every node brings along is left out.
 
     An arrow is dashed where nothing passes: nobody is on the other side, the qualities of service
     do not match, or the types differ. Nodes whose name has a part that begins with `_` are left
@@ -359,7 +426,8 @@ def graph(
             "The graph was taken before a node was added, or all of its nodes are hidden.",
             "Add a node to the session first.",
         )
-    known = (*shown.wiring.nodes, *shown.wiring.topics)
+    offered = (offer.name for offer in shown.wiring.offers)
+    known = (*shown.wiring.nodes, *shown.wiring.topics, *offered)
     strong = {
         sources.known_name(name, known, "node or topic") for name in sources.names_in(highlight)
     }
@@ -421,7 +489,8 @@ def _plan(shown: Marked) -> Layering:
     starts = {node_key(name): 0 for name in shown.wiring.nodes}
     starts.update((topic_key(name), 1) for name in shown.wiring.topics)
     starts.update(dict.fromkeys(shown.notes, 1))
-    links = [(edge.source, edge.target) for edge in shown.wiring.edges]
+    starts.update((offer.key, 1) for offer in shown.wiring.offers)
+    links = [(edge.source, edge.target) for edge in shown.edges()]
     return layering(starts, links)
 
 
@@ -444,6 +513,9 @@ def _labels(shown: Marked, strong: Collection[str], limit: float) -> dict[str, L
         key, short = topic_key(name), map(short_type, types)
         wrong, dashed = shown.plain.faults(name) or shown.words.get(key, ()), key in shown.dashed
         labels[key] = _label("topic", name, limit, name in strong, short, wrong, dashed)
+    for offer in shown.wiring.offers:
+        kind = f"{offer.word} {short_type(offer.type_name)}"
+        labels[offer.key] = _label("topic", offer.name, limit, offer.name in strong, [kind])
     return labels
 
 
@@ -454,7 +526,7 @@ def _draw(canvas: Canvas, shown: Marked, arranged: Arrangement) -> None:
         x, y = arranged.at(point)
         return left + x, canvas.top - y
 
-    for edge in shown.wiring.edges:
+    for edge in shown.edges():
         link, stroke = (edge.source, edge.target), BROKEN if edge.fault else PLAIN
         is_forward = link in placed.routes
         points = [*map(at, placed.routes[link] if is_forward else placed.returns[link])]
@@ -471,7 +543,9 @@ def describe(shown: Wiring) -> str:
     """Tell the wiring in whole sentences."""
     head = f"{count(len(shown.nodes), 'node')} and {count(len(shown.topics), 'topic')}."
     said = [sentence_case(head), *(_say_topic(shown, topic) for topic in shown.topics)]
-    busy = {end for edge in shown.edges for end in (edge.source, edge.target)}
+    said += map(_say_offer, shown.offers)
+    edges = [*shown.edges, *(edge for offer in shown.offers for edge in offer.edges)]
+    busy = {end for edge in edges for end in (edge.source, edge.target)}
     alone = [name for name in shown.nodes if node_key(name) not in busy]
     if alone:
         verb = "uses" if len(alone) == 1 else "use"
@@ -485,6 +559,14 @@ def describe(shown: Wiring) -> str:
 def say_shared(processes: Iterable[tuple[str, ...]]) -> list[str]:
     """Tell which nodes share a process, in whole sentences."""
     return [f"{listing(names)} share one process." for names in processes]
+
+
+def _say_offer(one: Offer) -> str:
+    article = "an" if one.word == "action" else "a"
+    return (
+        f"{one.name} ({short_type(one.type_name)}) is {article} {one.word}: offered by "
+        f"{listing(one.servers) or 'nobody'}, used by {listing(one.clients) or 'nobody'}."
+    )
 
 
 def _say_topic(shown: Wiring, topic: str) -> str:

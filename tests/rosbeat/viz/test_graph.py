@@ -13,7 +13,7 @@ from rosbeat.diagnosis.situation import Beat, Condition, Scene
 from rosbeat.records import Endpoint, Observation, QoS
 from rosbeat.viz import graph, theme
 
-ADD = "example_interfaces/srv/AddTwoInts"
+ADD, FIBONACCI = "example_interfaces/srv/AddTwoInts", "example_interfaces/action/Fibonacci"
 LONG = "/building_a/floor_3/room_17/temperature"
 SIMPLE = graph_of(
     pub("/temperature_sensor", "/temperature"),
@@ -26,6 +26,11 @@ READERS = graph_of(
 CYCLE = graph_of(
     *(pub("/ping", "/ball"), sub("/pong", "/ball"), pub("/pong", "/back"), sub("/ping", "/back")),
     sub("/watcher", "/back"),
+)
+SERVICE = graph_of(
+    Endpoint("/client", "/add", ADD, "client", QoS()),
+    Endpoint("/server", "/add", ADD, "server", QoS()),
+    pub("/other", "/t", 0),
 )
 
 
@@ -143,6 +148,8 @@ def test_where_nothing_passes_the_arrow_is_dashed_and_says_why(ends, styles, fau
         (graph_of(sub("/b", "/t", 1)), "published by another process, subscribed to by /b"),
         (graph_of(pub("/a", "/t", 1)), "published by /a, subscribed to by another process"),
         (graph_of(pub("/a", "/t", -1), sub("/_watch", "/t", -1)), "Left out: 1 hidden node."),
+        (graph_of(Endpoint("/a", "/b/get_parameters", "rcl_interfaces/srv/A", "client", QoS())),
+         "offered by nobody, used by /a"),
         (replace(stages(4), processes=(("/stage_0", "/stage_1"), ("/stage_2", "/stage_3"))),
          "/stage_0 and /stage_1 share one process. /stage_2 and /stage_3 share one process."),
     ],
@@ -157,15 +164,24 @@ def test_hidden_nodes_are_left_out_but_still_listen():
     assert len(patches(picture, Polygon)) == 1
 
 
-def test_services_and_actions_are_not_shown():
+def test_services_and_actions_lead_from_who_uses_one_to_who_offers_it():
     ends = (
-        Endpoint("/client", "/add", ADD, "client", QoS()),
-        Endpoint("/server", "/add", ADD, "server", QoS()),
-        pub("/server", "/heat/_action/status", 0),
+        *SERVICE.endpoints[:2],
+        Endpoint("/server", "/heat", FIBONACCI, "action server", QoS()),
+        Endpoint("/server", "/heat/_action/send_goal", f"{FIBONACCI}_SendGoal", "server", QoS()),
+        Endpoint("/server", "/server/get_parameters", "rcl_interfaces/srv/A", "server", QoS()),
+        Endpoint("/_spy", "/ask", ADD, "server", QoS()),
     )
     picture = graph(graph_of(*ends))
-    assert sorted(words_in(picture)) == ["/client", "/server"]
-    assert "/client and /server use no topic." in picture.description
+    names = ["/add", "/client", "/heat", "/server", "action Fibonacci", "service AddTwoInts"]
+    assert sorted(words_in(picture)) == names
+    assert len(patches(picture, Polygon)) == 3
+    assert picture.description == (
+        "2 nodes and no topics. /add (AddTwoInts) is a service: offered by /server, used by "
+        "/client. /heat (Fibonacci) is an action: offered by /server, used by nobody. Left out: 1 "
+        "hidden node."
+    )
+    assert is_tidy(picture)
 
 
 def test_which_nodes_share_a_process_is_written_below():
