@@ -37,6 +37,7 @@ a graph.
 
 from __future__ import annotations
 
+import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -61,10 +62,17 @@ _HOMES = {
     "values": "plots",
 }
 __all__ = list(_HOMES)
+#: Names of release 0.1.0, and what they are called now.
+_RENAMED = {"crossing": "message_flow", "differences": "comparison"}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name
-    """Load a public name when it is first used."""
+    """Load a public name when it is first used; an old name still works, with a warning."""
+    if name in _RENAMED:
+        now = _RENAMED[name]
+        words = f"`viz.{name}` is deprecated: it is called `viz.{now}` now."
+        warnings.warn(words, DeprecationWarning, stacklevel=2)
+        name = now
     if name not in _HOMES:
         raise AttributeError(f"module 'rosbeat.viz' has no attribute {name!r}")
     return getattr(import_module(f"rosbeat.viz.{_HOMES[name]}"), name)

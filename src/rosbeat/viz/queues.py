@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import itertools
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from matplotlib.patches import Rectangle
 
@@ -71,7 +73,13 @@ def moments(steps: Sequence[QueueStep]) -> list[Moment]:
 
 
 @called_as('viz.queue(ros, "temperature")')
-def queue(source: Observed, topic: str | None = None, *, node: str | None = None) -> Picture:
+def queue(
+    source: Observed | Sequence[QueueStep],
+    topic: str | int | None = None,
+    depth: int | None = None,
+    *,
+    node: str | None = None,
+) -> Picture:
     """Draw a subscription's queue filling, emptying and dropping.
 
     One column for every moment at which something happened, from left to right; in it the messages
@@ -83,14 +91,19 @@ def queue(source: Observed, topic: str | None = None, *, node: str | None = None
         source: A session, or what it observed.
         topic: The topic's name; `temperature` and `/temperature` are the same. None for the only
             one that has a subscription.
+        depth: Queue length in messages, of release 0.1.0's `queue(steps, depth)` only.
         node: The node that subscribes, if several do.
 
     Raises:
         PictureError: If `source` is no session, the topic has no subscription or several, no
             message arrived there, or some expired in the queue.
     """
+    if isinstance(source, Sequence):
+        words = "`viz.queue(steps, depth)` is deprecated: `viz.queue(ros, topic)` takes a session."
+        warnings.warn(words, DeprecationWarning, stacklevel=3)
+        return of_steps(source, cast("int", topic if depth is None else depth))
     seen = observed(source, "a session")
-    end = _subscription(seen, topic, node)
+    end = _subscription(seen, cast("str | None", topic), node)
     return of_steps(_steps(seen, end), end.qos.depth)
 
 

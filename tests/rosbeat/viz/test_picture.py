@@ -145,3 +145,11 @@ def test_what_the_package_offers():
     assert all(callable(getattr(viz, name)) for name in viz.__all__)
     with pytest.raises(AttributeError, match="no attribute 'pie'"):
         _ = viz.pie
+
+
+@pytest.mark.parametrize(
+    ("old", "now"), [("crossing", "message_flow"), ("differences", "comparison")]
+)
+def test_an_old_name_still_works_and_says_the_new_one(old, now):
+    with pytest.warns(DeprecationWarning, match=f"it is called `viz.{now}` now"):
+        assert getattr(viz, old) is getattr(viz, now)

@@ -105,3 +105,10 @@ def test_of_several_subscriptions_one_is_chosen_by_its_node():
 def test_what_is_no_queue_of_one_subscription_is_refused(seen, topic, words):
     with pytest.raises(PictureError, match=words):
         queue(seen, topic)
+
+
+def test_steps_still_make_a_picture_and_a_warning():
+    steps = queue_steps([0, 1, 2], [5], 2)
+    for old in ((steps, 2), (steps, None, 2)):
+        with pytest.warns(DeprecationWarning, match="takes a session"):
+            assert queue(*old).svg() == of_steps(steps, 2).svg()
