@@ -141,28 +141,6 @@ def only(text):
     return found
 
 
-def test_an_entry_is_a_cell_or_changes_the_solution():
-    whole = only("=== right | mine\nclass B: pass\nx = 1\n")
-    assert (whole.text, whole.status, whole.subject) == ("class B: pass\nx = 1\n", "passed", "x")
-    same = only("=== untried | the same\n")
-    assert (same.text, same.status, same.subject) == (SOLUTION, "not attempted", "A")
-    wrong = only("=== wrong a or b | both | A()\n--- Why.\n$ ls\nlow = 1 => low = 3\n")
-    assert (wrong.mistakes, wrong.before, wrong.subject) == (("a", "b"), "ls", "A()")
-
-
-def test_lines_stay_and_go_and_come():
-    change = "     high = 2\n+    more = 3\n-        return self.low\n+        return 1\n"
-    text = SOLUTION.replace("2\n", "2\n    more = 3\n").replace("self.low", "1")
-    assert only(f"=== right | lines\n{change}").text == text
-    top = only("=== right | top\n+import math\n+\n-    high = 2\n").text
-    assert top == "import math\n\n" + SOLUTION.replace("    high = 2\n", "")
-
-
-def test_an_entry_changes_another_one():
-    _, found = parse("03a", "=== right | b\nx = 1\n=== wrong c | d | from b\nx = 1 => x = 2", "")
-    assert (found.text, found.subject) == ("x = 2\n", "x")
-
-
 def test_an_entry_that_is_changed_is_a_whole_one():
     head = "=== right | b\nlow = 1 => low = 2\n=== right | c | from b\n"
     for change in ("low = 2 => low = 3\n", "x = 1\n"):

@@ -5,8 +5,7 @@ import re
 import pytest
 
 from bank import teaching
-from bank.reading import Answer
-from bank.teaching import DOCUMENT, LESSON, TOGETHER, blocks, mistakes, numbered, write
+from bank.teaching import DOCUMENT, LESSON, TOGETHER, blocks, numbered, write
 from rosbeat.exercises.questions import QUESTIONS
 from rosbeat.exercises.registry import EXERCISES
 
@@ -50,31 +49,3 @@ def test_a_lesson_is_long_enough_and_comes_after_what_it_needs():
             assert set(page.needs) <= set(taught)
             taught.append(page.number)
     assert taught == list(numbered())
-
-
-def wrong(exercise, *names):
-    return Answer(exercise, "", "", "failed", names)
-
-
-def test_mistakes_are_counted_and_named():
-    table = mistakes(
-        [
-            wrong("03a", "wrong-rate"),
-            wrong("03c", "wrong-rate", "super-missing"),
-            wrong("03b", "new-to-me"),
-            wrong("03b", "no-clamp"),
-        ]
-    )
-    assert table.splitlines()[0].endswith("| share of 4 wrong answers |")
-    assert table.splitlines()[2:] == [
-        "| 03a, 03c | a different rate than requested | 50% |",
-        r"| 03c | super().\_\_init\_\_ is missing, or comes too late | 25% |",
-        "| 03b | a value that is not clamped | 25% |",
-    ]
-
-
-def test_only_what_stands_between_markers_is_written(monkeypatch):
-    monkeypatch.setattr(teaching, "mistakes", lambda _: "a table\n")
-    text = "kept\n\n<!-- begin: 03 -->\nold\n<!-- end -->\n\nkept, too\n"
-    new = "kept\n\n<!-- begin: 03 -->\n\na table\n\n<!-- end -->\n\nkept, too\n"
-    assert write(text) == write(new) == new

@@ -6,6 +6,7 @@ weather of every trial follows from the numbers in that file, and from a seed.
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -29,21 +30,11 @@ SETTING = "ROSBEAT_RUBRIC"
 KNOWN = tuple(f"R{number}" for number in range(1, 12))
 #: What the points of all requirements add up to: the points of the exercise.
 TOTAL = 20
+_OWN = "rubrics/greenhouse.json"
+_OWN_TEXT = files("rosbeat.exercises").joinpath(_OWN).read_text(encoding="utf-8")
 #: The numbers that stand in the course's own rubric: limits in degrees Celsius and per cent, and
 #: times in whole seconds.
-USUAL: Mapping[str, float] = {
-    "open_above": 28.0,
-    "close_below": 26.0,
-    "dry_below": 40.0,
-    "temperature_min": -20.0,
-    "temperature_max": 60.0,
-    "pump_seconds": 5.0,
-    "rest_seconds": 20.0,
-    "silent_seconds": 5.0,
-    "report_seconds": 10.0,
-    "react_seconds": 2.0,
-}
-_OWN = "rubrics/greenhouse.json"
+USUAL: Mapping[str, float] = json.loads(_OWN_TEXT)["numbers"]
 
 
 @dataclass(frozen=True)
@@ -84,8 +75,7 @@ def read_rubric() -> Rubric:
     """
     chosen = os.environ.get(SETTING, "")
     if not chosen:
-        text = files("rosbeat.exercises").joinpath(_OWN).read_text(encoding="utf-8")
-        return parse_rubric(text, _OWN)
+        return parse_rubric(_OWN_TEXT, _OWN)
     try:
         text = Path(chosen).expanduser().read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as error:

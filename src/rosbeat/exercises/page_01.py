@@ -195,7 +195,7 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
     # Only what a suspect makes counts: a workspace keeps what was tried before, too.
     fit = [one for one in _SUSPECTS if near in one.model(None) and one.model(None).keys() <= there]
     found = name_mistake(fit[:1], Diagnosis(*_of_spelling(near, evidence)))
-    return Diagnosis(found.mistake, evidence, found.hint + _advice_to_remove(there, seen))
+    return Diagnosis(found.mistake, evidence, found.hint)
 
 
 def _of_spelling(near: str, evidence: str) -> tuple[str, str, str]:
@@ -217,28 +217,6 @@ def _nearness(folder: str) -> tuple[int, bool, int, str]:
     parts = folder.split("/")
     close = sum(any(alike(part, goal) for part in parts) for goal in _ALARM.split("/"))
     return close, _letters(folder) == _letters(_ALARM), folder.count("/"), folder
-
-
-def _advice_to_remove(near: set[str], seen: FolderMaking) -> str:
-    """Return how to remove folders that lead nowhere; none of the page's, nor a package's."""
-    known = (*FOLDERS, "resources", _RUNS_THROUGH)
-    packages = [f"{package.folder.as_posix()}/" for package in seen.workspace.packages.values()]
-    astray = set()
-    for folder in near:
-        names = folder.split("/")
-        outer = ["/".join(names[: at + 1]) for at in range(len(names))]
-        first = next((one for one in outer if one not in known), "")
-        if first and not any(f"{first}/" in package for package in packages):
-            place, _, name = first.rpartition("/")
-            # In words: as a path, it may have the one in it that is asked for.
-            astray.add((first, f"{name} in {place}" if place else name))
-    if not astray:
-        return ""
-    listed = " and ".join(said for _, said in sorted(astray))
-    return (
-        f" You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with all "
-        "that is in it."
-    )
 
 
 # 01b, from here to there: where a terminal is, and what was typed on the way.

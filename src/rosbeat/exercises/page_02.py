@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -45,12 +44,6 @@ _EMAIL = re.compile(r"[-\w%+]+(\.[-\w%+]+)*@[-\w%]+(\.[-\w%]+)*\.[a-zA-Z]{2,}", 
 _VERSION = re.compile(r"\d+\.\d+\.\d+")
 #: Tags that a manifest needs.
 _TAGS = ("name", "version", "description", "maintainer", "license", "export")
-#: Short names of licences that ROS packages often have, to be compared with a misspelled one.
-_LICENSES = (
-    "Apache-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "GPL-3.0-or-later",
-    "LGPL-3.0-only", "LGPL-3.0-or-later", "AGPL-3.0-only", "MPL-2.0", "EPL-2.0", "BSL-1.0", "ISC",
-    "CC-BY-4.0", "CC0-1.0", "Unlicense",
-)  # fmt: skip
 
 
 def _judge_manifest(seen: Workspace) -> Verdict:
@@ -186,11 +179,8 @@ def _remark_on_license(text: str) -> tuple[str, ...]:
     unknown = next((one for one in text.split(", ") if not _is_known_license(one)), "")
     if not unknown:
         return ()
-    names = {one.lower(): one for one in _LICENSES}
-    near = get_close_matches(unknown.lower(), names, 1, 0.75)
-    asked = f"Did you mean {names[near[0]]}? " if near else ""
     return (
-        f"Programs do not know a licence {unknown}. {asked}spdx.org/licenses lists the short "
+        f"Programs do not know a licence {unknown}. spdx.org/licenses lists the short "
         "names that they know, such as MIT.",
     )
 

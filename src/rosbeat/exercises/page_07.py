@@ -99,8 +99,8 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
     )
     unheard = {topic for topic in own if not listeners[topic]}
     unsent = {topic for topic in own if not senders[topic]}
-    types = {end.name: end.type_name for end in graph.endpoints}
-    rates = {topic: _rate(house.run, topic) for topic in own}
+    types = [end.type_name for end in graph.on("/moisture", "publisher")]
+    rate = _rate(house.run, "/moisture")
     depths = {
         (end.kind, end.node): end.qos.depth for end in graph.endpoints if end.name == "/moisture"
     }
@@ -113,17 +113,14 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
             "That node has nothing to do with /moisture.",
             "ros2 topic info --verbose lists both sides of a topic, one below the other."),
         _Question(
-            "type of /moisture", "type", [types["/moisture"]],
-            {name: ("finding-wrong", f"That is the type of {topic}.")
-             for topic, name in types.items()},
-            "No topic of the greenhouse has that type.",
+            "type of /moisture", "type", types,
+            {},
+            "/moisture has another type.",
             "ros2 topic list -t shows a topic's type in brackets."),
         _Question(
-            "messages a second on /moisture", "rate", [rates["/moisture"]],
-            {1 / rates["/moisture"]: ("period-for-rate", "That is the time from one message to "
-                                      "the next; a rate counts the messages in one second.")}
-            | {rate: ("finding-wrong", f"That is the rate of {topic}.")
-               for topic, rate in rates.items()},
+            "messages a second on /moisture", "rate", [rate],
+            {1 / rate: ("period-for-rate", "That is the time from one message to "
+                                      "the next; a rate counts the messages in one second.")},
             "The messages come at another rate.",
             "ros2 topic hz measures it; wait for its second line."),
         _Question(
@@ -136,22 +133,22 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
             "A terminal cannot see it. The graph of the session shows it: look for depth in "
             "ros.graph()."),
         _Question(
-            "topic without a listener", "topic", unheard, _used(listeners, unsent, "listen to"),
-            "", sides),
+            "topic without a listener", "topic", unheard,
+            dict.fromkeys(unsent, ("sides-confused", "It has a listener, and no publisher.")),
+            "It has a listener.", sides),
         _Question(
-            "topic without a publisher", "topic", unsent, _used(senders, unheard, "publish on"),
-            "", sides),
+            "topic without a publisher", "topic", unsent,
+            dict.fromkeys(unheard, ("sides-confused", "It has a publisher, and no listener.")),
+            "It has a publisher.", sides),
         _Question(
             "node that warns", "node",
             {_full(log.name) for log in house.run.logs if log.level == "WARN"},
-            {_full(log.name): ("finding-wrong", "It logs, but it never warns.")
-             for log in house.run.logs},
-            "It never logs a line.",
+            {},
+            "It never warns.",
             "Log lines are published on /rosout; a warning has level 30."),
         _Question(
             "dry_below of /gardener", "number", [house.parameters["/gardener dry_below"]],
-            {value: ("finding-wrong", f"That is the value of `{name}`.")
-             for name, value in house.parameters.items()},
+            {},
             "It has another value.",
             "ros2 param get takes the node and the parameter. If you have set it yourself: what "
             "was it when the greenhouse was started?"),
@@ -162,16 +159,6 @@ def _rate(run: Observation, topic: str) -> float:
     times = [one.time for one in run.samples if one.topic == topic]
     spread = times[-1] - times[0] if times else 0.0
     return (len(times) - 1) / spread if spread else 0.0
-
-
-def _used(nodes: Mapping[str, list[str]], confused: set[str], does: str) -> dict[Any, Any]:
-    """Return what is true of topics that have the side which a question says is missing."""
-    brought = "Every node has this topic; the greenhouse itself doesn't use it."
-    return {
-        topic: ("sides-confused" if topic in confused else "finding-wrong",
-                f"Nodes that {does} it: {', '.join(there)}.")
-        for topic, there in nodes.items()
-    } | dict.fromkeys(INFRASTRUCTURE_TOPICS, ("finding-wrong", brought))  # fmt: skip
 
 
 def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Verdict:

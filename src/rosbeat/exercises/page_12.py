@@ -345,15 +345,6 @@ NOT_VALIDATED = Suspect(
 )
 #: Monitors that are wrong about the first request at which they are not right.
 MONITORS = (
-    _suspect("boundary",
-        "Above high is High, and below low is Low. A reading at the limit itself is Normal.",
-        lambda one: not one.values,
-        lambda one: {
-            Reaction.STATUSES: tuple(
-                "High" if value >= one.before.high else one.before.status(value)
-                for value in one.readings
-            )
-        }),
     _suspect("validated-one-by-one",
         "Both new values are in the list. Which of your comparisons still uses an old one?",
         lambda one: one.is_good and len(one.values) > 1,
@@ -392,12 +383,11 @@ MONITORS = (
         lambda one: _reaction(one, False, one.before, False)),
 )  # fmt: skip
 
-# One after the other is a misunderstanding of two limits in one request. The readings before the
-# first request for parameters meet no limit.
+# One after the other is a misunderstanding of two limits in one request.
 SERVICE_MODELS = in_turn(
     right_monitor, (one for one in MONITORS if one.mistake != "validated-one-by-one")
 )
-PARAMETER_MODELS = in_turn(right_monitor, (one for one in MONITORS if one.mistake != "boundary"))
+PARAMETER_MODELS = in_turn(right_monitor, MONITORS)
 
 
 @dataclass(frozen=True)
@@ -682,8 +672,8 @@ class Work(IntEnum):
     END = 3
     STATUS = 4
     DEGREES = 5
-    FEEDBACK = 6
-    HEATER = 7
+    HEATER = 6
+    FEEDBACK = 7
 
 
 def right_thermostat(goal: Goal) -> Track:
@@ -697,8 +687,8 @@ def right_thermostat(goal: Goal) -> Track:
         Work.END: ("in time",),
         Work.STATUS: ("CANCELED" if goal.is_canceled else "SUCCEEDED",),
         Work.DEGREES: ("as read",),
-        Work.FEEDBACK: ("each second",),
         Work.HEATER: ("off",),
+        Work.FEEDBACK: ("each second",),
     }
 
 
@@ -744,7 +734,6 @@ HEATERS = (
     _at("succeed-forgotten",
         "ROS regards a goal as aborted unless the work says how it ended. Which call says so?",
         Work.STATUS, "ABORTED", _RUNS_ON),
-    _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
     _at("result-wrong", "The result has a field for the temperatures, as the feedback has.",
         Work.DEGREES, "none"),
     _at("ends-too-soon",
@@ -756,6 +745,8 @@ HEATERS = (
     _at("feedback-missing",
         "Publish feedback in each round of the loop, with what was read so far.",
         Work.FEEDBACK, "missing", _RUNS_ON),
+    _at("wrong-rate", "One feedback after each reading is enough. Which lines publish one?",
+        Work.FEEDBACK, "too often", _RUNS_ON),
     _at("wrong-values", "Feedback holds all temperatures so far, as the result does in the end.",
         Work.FEEDBACK, "others", _RUNS_ON),
     _at("left-on", "Which line switches the heater off? Every way out of the work has to pass it.",
@@ -771,27 +762,25 @@ THERMOSTATS = (
     _at("cancel-ignored",
         "Accepting a cancel is a promise: the work has to ask its goal handle in each round.",
         Work.END, "too late", _STOPPED),
-    _at("ends-too-soon",
-        "Is anything left over from the previous goal?",
-        Work.END, "too soon", _STOPPED),
     _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _STOPPED),
     _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _STOPPED),
 )  # fmt: skip
 
 
 class _Heating:
-    """Hold what a client got for one goal, and what the heater did.
+    """Hold what a client got for one goal, what the room was like, and what the heater did.
 
-    The tolerances are why this is no plain comparison with a simulated room: a result may begin
-    with the temperature before the heater was on, feedback may skip its last second, a canceled
-    goal may end before or after the next reading, and a warm room need not be read at all.
+    A canceled goal may end before or after the next reading, and a room that is warm enough need
+    not be read at all: there, what is right is less exact.
     """
 
-    def __init__(self, seen: Observation, goal: Goal, start: int) -> None:
+    def __init__(self, seen: Observation, goal: Goal) -> None:
         self._goal, self._canceled_at = goal, goal.at + (goal.cancel_after or inf)
         self._heater = [(one.time, bool(one.value)) for one in samples_on(seen, _HEATER)]
         replies = [one for one in seen.replies if one.number == goal.number]
-        self._feedback = [one for one in replies if one.word == "feedback"]
+        self._feedback = [
+            (one.time, list(one.data["sequence"])) for one in replies if one.word == "feedback"
+        ]
         got = {one.word: one for one in replies}
         self.decision = "neither accepted nor rejected"
         if "goal" in got:
@@ -800,17 +789,14 @@ class _Heating:
         self.end = got["result"].time if "result" in got else None
         result = got["result"].data if "result" in got else {"status": "", "sequence": ()}
         self._status, self._degrees = str(result["status"]), list(result["sequence"])
-        self._room = room = [(one.time, int(one.value)) for one in samples_on(seen, _TEMPERATURE)]
-        start = next((value for at, value in reversed(room) if at < goal.at), start)
-        self._wanted = list(range(start + 1, goal.order + 1))
-        self._right = [self._wanted, [start, *self._wanted]]
-        if next((value for at, value in room if at > goal.at), start) < start:
-            # The room lost a degree just before a node that reads first switched the heater on.
-            self._right.append([start - 1, start, *self._wanted])
-        if goal.is_canceled or goal.is_reached:
-            # The last reading may have come just when the work ended.
-            read = [value for at, value in room if goal.at < at <= (self.end or 0)]
-            self._right = [read, read[:-1], [start, *read], [start, *read[:-1]]]
+        room = [(one.time, int(one.value)) for one in samples_on(seen, _TEMPERATURE)]
+        room = [one for one in room if one[0] <= (self.end or 0)]
+        self._read = [one for one in room if one[0] > goal.at]
+        self._wanted = [value for _, value in self._read]
+        if not (goal.is_canceled or goal.is_reached):
+            warmest = room[-1][1] if room else goal.order
+            self._wanted = [value for value in self._wanted if value <= goal.order]
+            self._wanted += range(warmest + 1, goal.order + 1)
 
     def points(self) -> dict[Work, tuple[Any, str]]:
         """Return what was done at each point, and a sentence about it; `...` if it may be any."""
@@ -830,7 +816,6 @@ class _Heating:
         due += f", at {self._canceled_at:g} s" if canceled else ""
         # A cancel that comes after the end cannot be accepted.
         refused = canceled and end != "too soon" and not self._cancels
-        free = self._goal.is_reached
         return {
             Work.DECISION: decision,
             Work.SWITCHED_ON: (
@@ -848,15 +833,15 @@ class _Heating:
                 f"{right[Work.STATUS][0]}.",
             ),
             Work.DEGREES: (
-                self._read(),
+                self._compared(),
                 f"The result of the goal {self._goal.order} holds {self._degrees[:8]}; it should "
-                f"hold {self._right[0][:8]}.",
+                f"hold {self._wanted[:8]}.",
             ),
-            Work.FEEDBACK: (... if free or canceled else self._reported(), self._feedback_text()),
             Work.HEATER: (
                 "on" if self.end is not None and self._is_on_at(self.end + 1) else "off",
                 f"{task} {ended}, and a second later the heater was still on.",
             ),
+            Work.FEEDBACK: self._reported(),
         }
 
     def _ended(self) -> str:
@@ -867,69 +852,39 @@ class _Heating:
             return "never"
         return "too late" if self._goal.is_reached and self.end > self._goal.at + 2 else "in time"
 
-    def _read(self) -> str:
-        found = self._degrees
+    def _compared(self) -> str:
+        """Compare the result with the temperatures that were read."""
+        found, read = self._degrees, [value for _, value in self._read]
         if not found and not self._goal.is_reached:
             return "none"
-        if found in self._right:
-            return "as read"
         if self._goal.is_canceled or self._goal.is_reached:
-            return "others"
-        # A heater that was not on for long enough cannot have got so far.
-        if found[-1] < self._goal.order and (self.end or 0) < self._goal.at + len(self._wanted):
+            return "as read" if found in (read, read[:-1]) else "others"
+        if found[-1] < self._goal.order and found == read[: len(found)]:
             return "too few"
-        more = found[-1] > self._goal.order and found[:-1] in self._right
-        return "one too many" if more else "others"
+        if found == read and read[:-1] == self._wanted:
+            return "one too many"
+        return "as read" if found == self._wanted and len(read) <= len(found) else "others"
 
-    def _reported(self) -> str:
-        least = max(1, len(self._wanted) - 1) if self._goal.number == 1 else 1
-        if len({one.time for one in self._feedback}) < least:
-            return "missing"
-        return "others" if self._strange() else "each second"
-
-    def _strange(self) -> list[list[int]]:
-        """Return the feedback that is no beginning of the result."""
-        found = [list(one.data["sequence"]) for one in self._feedback]
-        return [one for one in found if not one or one != self._degrees[: len(one)]]
-
-    def left_out(self) -> Diagnosis | None:
-        """Name a reading on the way to the target that is not in the result, or not reported."""
-        if not self._goal.is_good or self._goal.is_canceled or self._goal.is_reached:
-            return None
-        read = [one for one in self._room if self._goal.at < one[0] <= (self.end or 0)]
-        heard = [value for _, value in read]
-        if self._degrees != heard:
-            return Diagnosis(
-                "result-wrong",
-                f"The temperatures read for the goal {self._goal.order} were {heard[:8]}, and the "
-                f"result holds {self._degrees[:8]}.",
-                "Every reading since the goal was accepted belongs in the list, also the first.",
-            )
-        told = [(one.time, len(one.data["sequence"])) for one in self._feedback]
-        for size, (at, value) in enumerate(read, 1):
-            found = [time for time, length in told if length == size and at <= time < at + 1]
-            if not found:
-                return Diagnosis(
-                    "feedback-missing",
-                    f"There was no feedback after the reading of {value}, at {at:g} s.",
-                    "After each reading comes a feedback, also after the first and the last one.",
+    def _reported(self) -> tuple[Any, str]:
+        """Compare the feedback with the result, and with the readings on the way to the target."""
+        if self._goal.is_canceled or self._goal.is_reached:
+            return ..., ""
+        found = [degrees for _, degrees in self._feedback]
+        strange = next((one for one in found if one != self._degrees[: len(one)] or not one), None)
+        if strange is not None:
+            return "others", f"Feedback held {strange[:8]}; the result is {self._degrees[:8]}."
+        for size, value in enumerate(self._wanted, 1):
+            at = next((time for time, _ in self._read[size - 1 : size]), inf)
+            times = [time for time, one in self._feedback if len(one) == size]
+            times = [time for time in times if at <= time < at + 1]
+            if len(times) > 1:
+                return (
+                    "too often",
+                    f"After the reading of {value} there were {len(times)} feedbacks.",
                 )
-            if len(found) > 1:
-                return Diagnosis(
-                    "wrong-rate",
-                    f"After the reading of {value} there were {len(found)} feedbacks.",
-                    "One feedback after each reading is enough. Which lines publish one?",
-                )
-        return None
-
-    def _feedback_text(self) -> str:
-        if self._reported() == "others":
-            return f"Feedback held {self._strange()[0][:8]}; the result is {self._degrees[:8]}."
-        seconds = len({one.time for one in self._feedback})
-        return (
-            f"On the way to {self._goal.order} degrees the client got feedback at {seconds} of "
-            f"{len(self._degrees)} seconds."
-        )
+            if not times:
+                return "missing", f"There was no feedback after the reading of {value}."
+        return "each second", ""
 
     def _is_on_at(self, time: float) -> bool:
         """Return whether the last command for the heater up to a time was to switch it on."""
@@ -965,10 +920,8 @@ def _wrong_heating(seen: Observation, fed: Heating) -> Diagnosis | None:
         or _blocked(seen, fed)
         or _wrong_work(seen, fed, [Work.DECISION])
         or diagnose_unpublished(seen, _HEATER, hint=_SWITCH)
+        or _wrong_work(seen, fed, list(Work)[: Work.FEEDBACK])
         or _wrong_work(seen, fed, list(Work))
-        or next(
-            filter(None, (_Heating(seen, one, fed.start).left_out() for one in fed.goals)), None
-        )
     )
 
 
@@ -978,7 +931,7 @@ _SWITCH = "The work has to switch the heater on and off. Which lines of `heat` d
 def _wrong_work(seen: Observation, fed: Heating, judged: Sequence[Work]) -> Diagnosis | None:
     """Name the mistake of a thermostat at some points of its work; any other may be as it is."""
     for goal in fed.goals:
-        points = _Heating(seen, goal, fed.start).points()
+        points = _Heating(seen, goal).points()
         done = {at: (value if at in judged else ...,) for at, (value, _) in points.items()}
         describe = partial(_describe_work, points)
         found = diagnose(goal, done, right_thermostat(goal), THERMOSTATS, describe, same)
@@ -995,7 +948,7 @@ def _describe_work(points: Mapping[Work, tuple[Any, str]], mismatch: Mismatch) -
 def _blocked(seen: Observation, fed: Heating) -> Diagnosis | None:
     """Name work that keeps the node from hearing: the executor shows it, not what was done."""
     first = fed.goals[0]
-    work, begin = _Heating(seen, first, fed.start), first.at
+    work, begin = _Heating(seen, first), first.at
     end = work.end or begin + 4
     heard = [one.time for one in seen.callbacks if one.source == _TEMPERATURE.topic]
     if work.decision != "accepted" or not heard or end < begin + 2:

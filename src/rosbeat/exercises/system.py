@@ -7,7 +7,6 @@ and is told some numbers; then comes the sensor, and both the monitor and a prob
 
 from __future__ import annotations
 
-import ast
 import re
 import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -22,7 +21,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.packages import parse
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import STATUSES, Mismatch, Track, diagnose, status_of, variants
@@ -59,30 +57,13 @@ _FIRST_TOLD, _TO_START = 23.5, 6.0
 
 
 @dataclass(frozen=True)
-class Source:
-    """Record what the source of a program shows without being run; nothing if it is not there.
-
-    Attributes:
-        module: Its name.
-        classes: The classes that it defines.
-        numbers: The numbers that are written in it.
-        ends: The names of what `main` calls.
-    """
-
-    module: str
-    classes: tuple[str, ...] = ()
-    numbers: tuple[float, ...] = ()
-    ends: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
 class SystemRun:
     """Record what became of a package, from its source to the end of its programs.
 
     Attributes:
         package: The package in the learner's workspace, or None.
         place: Where it lies, if that is not `src`.
-        sources: Its two programs.
+        has_programs: Whether one of its two programs is there.
         build_code: Exit code of `colcon build`; None if it was not built.
         build_output: What that printed.
         meaning: What the first failure means, if its command is known to fail like this.
@@ -99,7 +80,7 @@ class SystemRun:
 
     package: Package | None = None
     place: str = ""
-    sources: tuple[Source, ...] = ()
+    has_programs: bool = False
     build_code: int | None = None
     build_output: str = ""
     meaning: CommandMeaning | None = None
@@ -129,8 +110,8 @@ def run_system(answer: Answer) -> SystemRun:
     if package is None:
         return SystemRun()
     folder = Path(answer) / package.folder
-    modules = (_read_source(folder / PACKAGE / f"{name}.py") for name in (SENSOR, MONITOR))
-    found = SystemRun(package, seen.place_of(PACKAGE), tuple(modules))
+    programs = (folder / PACKAGE / f"{name}.py" for name in (SENSOR, MONITOR))
+    found = SystemRun(package, seen.place_of(PACKAGE), any(one.is_file() for one in programs))
     entries = {one.executable for one in package.setup.entry_points}
     missing = not {SENSOR, MONITOR} <= entries and not package.setup.incomplete
     # A look is enough where there is nothing to build, or it cannot be built.
@@ -139,24 +120,6 @@ def run_system(answer: Answer) -> SystemRun:
         return found
     with TemporaryDirectory(prefix="rosbeat-") as place, private_domain() as domain_id:
         return _build_and_run(found, folder, Path(place), domain_id)
-
-
-def _read_source(path: Path) -> Source:
-    try:
-        tree = parse(path.read_bytes())
-    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
-        return Source(path.stem)
-    nodes = list(ast.walk(tree))
-    values = [one.value for one in nodes if isinstance(one, ast.Constant)]
-    numbers = [one for one in values if isinstance(one, int | float) and type(one) is not bool]
-    mains = [one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name == "main"]
-    called = [one.func for main in mains for one in ast.walk(main) if isinstance(one, ast.Call)]
-    return Source(
-        path.stem,
-        tuple(one.name for one in nodes if isinstance(one, ast.ClassDef)),
-        tuple(float(one) for one in numbers if abs(one) < 1e300),
-        tuple(ast.unparse(one).split(".")[-1] for one in called),
-    )
 
 
 def _build_and_run(found: SystemRun, folder: Path, place: Path, domain_id: int) -> SystemRun:
@@ -259,7 +222,7 @@ def _judge(seen: SystemRun) -> Verdict:
     package = seen.package
     if package is None:
         return not_attempted(f"There is no package {PACKAGE} in src yet.")
-    if not any(one.ends for one in seen.sources) and not package.setup.entry_points:
+    if not seen.has_programs and not package.setup.entry_points:
         return not_attempted(f"The package {PACKAGE} has no programs yet.")
     wrong = (
         _diagnose_package(seen, package) or _diagnose_build(seen) or _diagnose_start(seen)
@@ -490,7 +453,7 @@ def _ends_by_the_tutorial(run: ProgramRun) -> bool:
 
 
 def _remarks(seen: SystemRun) -> Iterator[str]:
-    """Generate the slips of the tutorial that are in a system which works."""
+    """Generate a remark on each program that ends with the tutorial's traceback."""
     for run in _runs(seen):
         if _ends_by_the_tutorial(run):
             yield (
@@ -498,17 +461,6 @@ def _remarks(seen: SystemRun) -> Iterator[str]:
                 "rclpy.try_shutdown() instead of rclpy.shutdown(), and ExternalShutdownException "
                 "beside KeyboardInterrupt, end it quietly."
             )
-    for source in seen.sources:
-        if "TemperaturSensor" in source.classes:
-            said = (
-                "The class TemperaturSensor is spelled TemperatureSensor elsewhere in the tutorial."
-            )
-            yield said
-        if source.module == SENSOR and 10.2 in source.numbers:
-            yield "The lower limit is 10.2, as the tutorial has it; 18.0 was probably meant."
-        tidies = {"destroy_node", "shutdown", "try_shutdown"} & set(source.ends)
-        if source.module == MONITOR and source.ends and not tidies:
-            yield f"main in {MONITOR} leaves its node and ROS as they are; the sensor tidies up."
 
 
 # The picture.

@@ -4,7 +4,6 @@ from itertools import pairwise
 
 import pytest
 
-from rosbeat.exercises import page_12
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Observation
 
@@ -43,9 +42,3 @@ def test_a_goal_is_over_before_the_next_one_and_a_canceled_one_does_not_reach_it
         sent = [(one.at, one.order) for one in (first, early, *others)]
         assert [(one.at, one.order) for one in step_before.goals] == sent
         assert [one.number for one in step_before.goals] == list(range(1, len(sent) + 1))
-
-
-def test_a_suspect_leaves_open_what_follows_from_its_mistake():
-    (fed,) = EXERCISES["12e"].inputs()
-    (suspect,) = (one for one in page_12.THERMOSTATS if one.mistake == "cancel-refused")
-    assert suspect.model(fed.goals[1])[page_12.Work.HEATER] == (...,)

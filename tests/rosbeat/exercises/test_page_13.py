@@ -36,7 +36,6 @@ from rosbeat.exercises.page_13 import (
     REPORTERS,
     VENTS,
     Reports,
-    Switch,
     Trials,
     held_temperatures,
     is_near,
@@ -71,7 +70,6 @@ def test_the_courses_own_rubric_holds_everything(monkeypatch):
     rubric = read_rubric()
     assert [one.id for one in rubric.requirements] == list(KNOWN) == list(JUDGES)
     assert sum(one.points for one in rubric.requirements) == TOTAL == EXERCISES["13b"].points
-    assert rubric.numbers == USUAL  # the trials are made of these if no others are given
     assert not any("{" in one.text for one in rubric.requirements)
 
 
@@ -87,32 +85,20 @@ def test_another_one_may_be_named(monkeypatch, tmp_path):
     ("text", "said"),
     [
         ("{", ["not JSON"]),
-        ("[]", ["`array` at `rubric`"]),
         ('{"numbers": [], "requirements": {}}', ["numbers"]),
         (changed(lambda data: data["numbers"].pop("open_above")), ["`open_above` is missing"]),
         (number("hue", 3), ["no number `hue`"]),
         (number("open_above", "28"), ["should be a number"]),
-        (number("open_above", True), ["should be a number"]),
-        (number("pump_seconds", 5.5), ["whole number"]),
         (number("rest_seconds", 1000), ["from 1 to 120"]),
         (number("close_below", 28.0), ["at least 1 below"]),
-        (number("open_above", 55.0), ["at least 10 below"]),
-        (number("temperature_min", 20.0), ["at least 10 below"]),
         (number("dry_below", 5.0), ["from 20 to 70"]),
         (number("pump_seconds", 4), ["`react_seconds` has to be"]),
-        (number("silent_seconds", 4), ["`react_seconds` has to be"]),
-        (number("rest_seconds", 6), ["`react_seconds` has to be"]),
-        (number("report_seconds", 60), ["from 5 to 30"]),
         (row(points=4), ["add up to 21"]),
         (row(points=-1), ["none below 0"]),
-        (row(points="3"), ["points"]),
         (row(id="R99"), ["may stand there once"]),
-        (row(id="R2"), ["may stand there once"]),
         (row(text="above {hue}"), ["the text of R1"]),
-        (row(text="above {"), ["the text of R1"]),
         (changed(lambda data: [r.update(required=False) for r in data["requirements"]]),
          ["nothing is required"]),
-        (changed(lambda data: data.update(requirements=[])), ["add up to 0"]),
         (changed(lambda data: data["numbers"].update(open_above=59.0, dry_below=5.0)),
          ["`open_above`", "`dry_below`"]),
     ],
@@ -235,13 +221,6 @@ def test_the_plain_day_tells_reports_from_the_right_one_and_from_each_other():
         assert_told_apart(REPORTERS, lambda _, means=means: means, [fed], is_near)
 
 
-def test_an_actuator_is_off_until_its_first_command_and_a_span_ends_with_the_run():
-    vent = Switch(((2.0, True), (3.0, True), (5.0, False), (7.0, True)))
-    assert [vent.at(time) for time in (0, 1.9, 2.0, 4.9, 5.0)] == [False, False, True, True, False]
-    assert vent.spans(9.0) == [(2.0, 5.0), (7.0, 9.0)]
-    assert Switch(((2.0, True), (2.0, False))).spans(9.0) == Switch(()).spans(9.0) == []
-
-
 def test_a_topic_leads_through_nodes_and_services_and_never_back_to_publishers():
     ends = (
         ("/a", "/in", "subscription"), ("/a", "/middle", "publisher"),
@@ -305,8 +284,8 @@ class Listener(Node):
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("numbers", [USUAL, {**USUAL, "open_above": 20.0, "close_below": 15.0}])
-def test_a_vent_is_run_in_the_weather_of_the_numbers_that_are_handed_over(numbers):
+def test_a_vent_is_run_in_the_weather_of_the_numbers_that_are_handed_over():
+    numbers = {**USUAL, "open_above": 20.0, "close_below": 15.0}
     seen = observe_vent(Listener, numbers=numbers)
     fed = [one.value for one in seen.plain.samples if one.topic == "/temperature"]
     assert fed == greenhouse.airing(numbers).temperature
@@ -325,19 +304,10 @@ def test_a_system_goes_through_every_trial_and_something_else_through_one():
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize(
-    "numbers",
-    [
-        [("28.0", "31.5"), ("timer(5.0", "timer(8.0")],
-        [("28.0", "6.0"), ("26.0", "4.0"), ("-20.0", "-60.0")],  # a mean may be 0
-    ],
-    ids=["warmer", "cold"],
-)
-def test_an_adjusted_rubric_judges_by_its_own_numbers(monkeypatch, tmp_path, numbers):
-    rubric = OWN.replace('"pump_seconds": 5', '"pump_seconds": 8') if len(numbers) == 2 else OWN
-    for old, new in numbers:
-        rubric = rubric.replace(f": {old}", f": {new}")
+def test_an_adjusted_rubric_judges_by_its_own_numbers(monkeypatch, tmp_path):
+    numbers = [("28.0", "31.5"), ("timer(5.0", "timer(8.0")]
     path = tmp_path / "mine.json"
+    rubric = OWN.replace('"pump_seconds": 5', '"pump_seconds": 8').replace(": 28.0", ": 31.5")
     path.write_text(rubric, encoding="utf-8-sig")
     monkeypatch.setenv(SETTING, str(path))
     usual = outcome_of("13b", solution("13b"), "greenhouse")
