@@ -122,14 +122,6 @@ def test_other_ways_to_work_are_not_stopped(page, cells):
     assert reply.text.startswith("passed"), reply
 
 
-def test_a_copy_that_failed_and_was_deleted_is_forgotten(page):
-    page((EXERCISE, RIGHT), ("exercise-copy", BROKEN))
-    reply = page((CHECK, ASK))
-    assert refused(reply)
-    page((SCRATCH, "1"), deletedCells=["exercise-copy"])
-    assert page((CHECK, ASK)).text.startswith("passed")
-
-
 # Files of the workspace.
 
 SAVE = "%%save src/sensor_simulator/sensor_simulator/helper.py\n"
