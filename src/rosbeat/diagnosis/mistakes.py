@@ -46,28 +46,6 @@ class Diagnosis:
     hint: str
 
 
-@dataclass(frozen=True)
-class Meaning:
-    """Hold what an error means, in the words of this course.
-
-    Attributes:
-        mistake: Its id, from `mistakes.MISTAKES`.
-        means: What happened, as a sentence or two.
-        to_try: Where to look, without the answer, one or two sentences.
-        aside: A sentence about the error's own words, for where they stand above; may be empty.
-    """
-
-    mistake: str
-    means: str
-    to_try: str
-    aside: str = ""
-
-    @property
-    def beside_error(self) -> str:
-        """Return what happened, said where the error's own words can be read."""
-        return f"{self.means} {self.aside}".strip()
-
-
 #: What a failed outcome is called if no mistake was recognised.
 UNKNOWN = "new-to-me"
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from failed_calls import failed_call
 from rosbeat import diagnosis
 from rosbeat.diagnosis.calls import in_words, role_of, written_call
-from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, meaning_of
+from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.records import Argument, Fault

@@ -168,16 +168,12 @@ def test_only_what_is_not_at_the_top_is_taken_for_one_s_own_folder(meaning, root
 @pytest.mark.parametrize(
     ("folder", "typed", "end"),
     [
-        ("..", "~/elsewhere/ROS2_and_RL_Tutorials/src", 'cd "$ROS2_WORKSPACE"/src'),
-        ("..", "ROS2_and_RL_Tutorials/srk", 'cd "$ROS2_WORKSPACE"/src'),
-        ("..", "ROS2_and_RL_Tutorials/xyz", 'cd "$ROS2_WORKSPACE"'),
-        ("..", "/home/ROS2_and_RL_Tutorials/my foldr", "cd \"$ROS2_WORKSPACE\"/'my folder'"),
+        ("..", "~/elsewhere/ROS2_and_RL_Tutorials/src", 'cd "$ROS2_WORKSPACE"'),
         (".", "my foldr", "Did you mean 'my folder'?"),
         (".", "./srcc", "Did you mean src?"),
         (".", "nowhere/srcc", "`ls` lists its content."),
         (".", "fill", "`ls` lists its content."),  # a file is not proposed
         (".", "/Documents/my x", "cd ~/'Documents/my x'"),
-        (".", "/Documents/xyz", "`ls ~` lists its content."),
     ],
 )
 def test_the_folder_that_was_meant(meaning, root, folder, typed, end):
@@ -218,7 +214,7 @@ LINE = f"'temperature_publisher = {ENTRY}',"
         (SETUP, ENTRY, "xyz.xyz:main", 0, FINE, ["Compare it with the names of your files"]),
         (SETUP, ENTRY, ENTRY.replace(":main", ":xyz"), 0, FINE,
          ["Define that function, or name one that exists."]),
-        (SETUP, f"publisher = {ENTRY}", f"publisher == {ENTRY}", 0, FINE, ["more than one `=`"]),
+        (SETUP, f"publisher = {ENTRY}", f"publisher == {ENTRY}", 0, FINE, ["a single `=`"]),
         (SETUP, None, None, 0, FINE, ["no setup.py"]),
         (f"resource/{PACKAGE}", None, None, 0, FINE, []),  # setup.py does not name it
         # A good build, and two entries for one function; a list that is computed is not blamed.
