@@ -296,14 +296,6 @@ def test_what_is_said(given_fault, mistake, said):
     assert found.mistake != "constructor-blocks" or "A callback" not in found.hint
 
 
-def test_what_is_said_beside_the_error_has_no_lead_of_its_own():
-    one = fault(*KNOWN[10][1:], "self.create_publisher(float, 't', 10)")
-    assert "ROS 1" not in diagnose_fault(one).evidence
-    assert "The error mentions ROS 1" in meaning_of(one).beside_error
-    two_types = fault("RCLError", "Failed to create subscription: invalid allocator, at /x.c:261")
-    assert meaning_of(two_types).beside_error.startswith("The topic already exists")
-
-
 @pytest.mark.parametrize("what", ["publishers on /temperature", "subscriptions to /t", "timers"])
 def test_what_is_made_at_each_call_is_no_callback_that_does_not_return(what):
     late = fault("DeadlinePassed", f"600 {what} in 599 calls", "self.create(x)")
