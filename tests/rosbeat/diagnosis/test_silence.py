@@ -1,10 +1,7 @@
 """Why nothing arrives on a topic: from scenes to explanations."""
 
-import ast
 from dataclasses import FrozenInstanceError, replace
 from html.parser import HTMLParser
-from itertools import combinations
-from pathlib import Path
 
 import pytest
 
@@ -13,7 +10,7 @@ from rosbeat.diagnosis import silence
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.diagnosis.silence import WELL, difference, explain, nearest, report, sides_of
 from rosbeat.diagnosis.situation import Beat, Condition, OtherDomain, StaleBuild, rate_of
-from rosbeat.records import GraphSnapshot, QoS
+from rosbeat.records import QoS
 from scenes import (
     LATCHED,
     SENSOR_DATA,
@@ -52,13 +49,6 @@ def test_what_is_almost_the_same_is_found_and_other_words_are_not(other, words):
     assert nearest(TOPIC, ["/pressure", other]) == ("" if words is None else other)
     assert nearest(other, [TOPIC, "/pressure"]) == ("" if words is None else TOPIC)
     assert words is None or words in difference(TOPIC, other)
-
-
-def test_of_two_the_nearer_one_and_always_the_same():
-    others = ["/temprature", "/temperatures", "/tmprature"]
-    assert nearest(TOPIC, others) == nearest(TOPIC, reversed(others)) == "/temperatures"
-    assert nearest(TOPIC, []) == ""
-    assert difference("/room/temperature", "/room_temperature").endswith("in one character")
 
 
 # The causes.
@@ -217,7 +207,7 @@ CASES = {
     "an old build, and all is well": (well(stale_builds=(BUILD,)), "",
         ["Note: temperature_publisher was edited"]),
     "a silent publisher may be an old build": (
-        elsewhere(scene(pub(), sub(), stale_builds=(BUILD,))), None, []),
+        elsewhere(scene(pub(), sub(), stale_builds=(BUILD,))), f"not-rebuilt {UNKNOWN}", []),
     "several publishers add up": (
         scene(pub(), pub("/other"), sub(), beats=(spoke(), spoke("/other", rate=3.0), heard())),
         "", ["4 messages a second arrive at /monitor"]),
@@ -240,7 +230,7 @@ def in_a_line(found):
 def test_the_causes_and_what_is_said(case):
     told, mistakes, parts = CASES[case]
     found = explain(TOPIC, told)
-    assert mistakes is None or causes(told) == mistakes.split()
+    assert causes(told) == mistakes.split()
     for part in parts:
         assert part in in_a_line(found)
     assert found.verdict == (causes(told)[0] if found.diagnoses else WELL)
@@ -249,11 +239,6 @@ def test_the_causes_and_what_is_said(case):
     assert all(one.evidence and one.hint for one in found.diagnoses)
     assert found == explain(TOPIC, told)
     assert max(map(len, str(found).splitlines())) <= 100
-
-
-def test_an_old_build_is_among_the_causes_of_silence():
-    assert "not-rebuilt" in causes(CASES["a silent publisher may be an old build"][0])
-    assert "/display" not in explain(TOPIC, CASES["in another domain"][0]).diagnoses[0].evidence
 
 
 @pytest.mark.parametrize(
@@ -332,49 +317,6 @@ SCENES = {((told and causes(told)) or [WELL])[0]: told for told, *_ in CASES.val
 def test_every_verdict_is_a_mistake_with_a_name_and_is_tried_here():
     assert set(SCENES) == {*silence._ORDER, WELL}
     assert set(silence._ORDER) <= {*MISTAKES, UNKNOWN}
-
-
-def test_every_mistake_that_is_named_is_in_the_order():
-    folder = Path(silence.__file__).parent
-    named = {
-        call.args[0].value
-        for path in folder.glob("silence.py")
-        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(call, ast.Call) and ast.unparse(call.func) in ("Finding", "_Cause")
-        and isinstance(call.args[0], ast.Constant)
-    }  # fmt: skip
-    assert named == set(silence._ORDER) - {UNKNOWN}
-
-
-def both(one, other):
-    """Return both scenes in one, each on its own nodes."""
-
-    def name(record):
-        return replace(record, node=f"{record.node}_2")
-
-    nodes = tuple(f"{node}_2" for node in other.graph.nodes)
-    ends = tuple(map(name, other.graph.endpoints))
-    graph = GraphSnapshot((*one.graph.nodes, *nodes), (*one.graph.endpoints, *ends))
-    return replace(
-        one,
-        graph=graph,
-        beats=(*one.beats, *map(name, other.beats)),
-        conditions=(*one.conditions, *map(name, other.conditions)),
-        own=one.own | set(nodes),
-    )
-
-
-#: In the order in which they are named.
-TOGETHER = [silent(ended()), silent(Condition("/monitor", "paused")), clash(SENSOR_DATA), silent(),
-            CASES["has stopped"][0], TWO]  # fmt: skip
-
-
-@pytest.mark.parametrize(("one", "other"), list(combinations(range(len(TOGETHER)), 2)))
-def test_pairs_of_causes_are_both_named_the_likelier_first(one, other):
-    found = causes(both(TOGETHER[one], TOGETHER[other]))
-    likelier, less = causes(TOGETHER[one])[0], causes(TOGETHER[other])[0]
-    assert found.index(likelier) < found.index(less)
-    assert found == causes(both(TOGETHER[other], TOGETHER[one]))
 
 
 def test_the_text():
