@@ -1058,24 +1058,10 @@ _RUN_RULES = (
 _PLAIN = ("name-error", "wrong-attribute", "no-value-yet", "not-importable", "text-and-number")
 
 
-def _ended_by(kind: str, where: str = "") -> When:
-    """Return a condition: a node failed with this exception, below a certain function."""
-
-    def when(seen: Situation, _: Call, __: Found) -> bool:
-        last = re.match(rf"(?:[\w.]*\.)?(?:{kind})(?::|$)", seen.error)
-        return bool(seen.code and seen.about_ros and last and where in seen.traceback)
-
-    return when
-
-
 def _in_a_node(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
-    """Recognise an error that rclpy raises for a mistake in a node, or Python for a name."""
-    meaning = meaning_of_output(seen.traceback)
-    if meaning is None or meaning.mistake == "ctrl-c-traceback":  # rows above tell of that
-        return None
-    if not seen.about_ros and meaning.mistake not in _PLAIN:
-        return None
-    return meaning
+    """Recognise how a node ended: by Ctrl+C, or an error of rclpy's or Python's for a mistake."""
+    found = meaning_of_output(seen.traceback)
+    return found if found and (seen.about_ros or found.mistake in _PLAIN) else None
 
 
 _LOADING_RULES = (
@@ -1097,30 +1083,6 @@ _LOADING_RULES = (
     PackageRule(_RUN, (_flaw_of_the_executable,), when=_is_about_loading),
     PackageRule(_RUN, (_broken_module,), when=lambda seen, _: seen.error.startswith(_UNREADABLE)),
 )  # fmt: skip
-_ENDING_RULES = (
-    Row("ctrl-c-traceback", PYTHON, "",
-        "Ctrl+C has already shut ROS down when `main` calls `rclpy.shutdown()`, and shutting ROS "
-        "down twice is an error.",
-        "The node itself worked; only its exit isn't clean. Write `rclpy.try_shutdown()` in "
-        "`main` instead.",
-        lambda seen, *_: seen.code and "rcl_shutdown already called" in seen.error),
-    Row("ctrl-c-traceback", PYTHON, "",
-        "Ctrl+C came while the node was still starting, before `main` could catch it.",
-        "Nothing is broken: start the node again, and wait for its first line of output.",
-        _ended_by("ExternalShutdownException|KeyboardInterrupt", "in __init__")),
-    *(
-        Row("ctrl-c-traceback", PYTHON, "",
-            f"{cause}, but `main` does not catch the exception, so Python shows a traceback.",
-            "Nothing is broken. Put `rclpy.spin(node)` in a `try:` block, and below it  except "
-            "(KeyboardInterrupt, ExternalShutdownException): pass",
-            _ended_by(kind))
-        for kind, cause in (
-            ("ExternalShutdownException", "ROS was shut down while the node was spinning"),
-            ("KeyboardInterrupt", "Ctrl+C ended the node in the middle of its work"),
-        )
-    ),
-)  # fmt: skip
-
 _RULES: Rules = (
     Rule(".*", "", _folder_gone),
     Row("space-missing", "cd{1}", rf"{_BASH}cd([.~/][^:]*): ",
@@ -1140,7 +1102,6 @@ _RULES: Rules = (
     *_BUILD_RULES,
     *_RUN_RULES,
     *_LOADING_RULES,
-    *_ENDING_RULES,
     # What runs is older than what is written.
     PackageRule(_RUN, (_refused_since,), when=_runs_a_build),
     PackageRule(_RUN, (_edited,), when=_runs_a_build),
