@@ -1,11 +1,11 @@
 """Why nothing arrives on a topic: from scenes to explanations."""
 
 from dataclasses import FrozenInstanceError, replace
-from html.parser import HTMLParser
 
 import pytest
 
 from made_records import STRING
+from parsed_html import Parsed
 from rosbeat.diagnosis import silence
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.diagnosis.silence import WELL, difference, explain, nearest, report, sides_of
@@ -337,33 +337,13 @@ def test_the_text():
         found.verdict = "other"
 
 
-class _Reader(HTMLParser):
-    """Reads the words, and complains about tags that do not close."""
-
-    def __init__(self):
-        super().__init__()
-        self.words, self.open = [], []
-
-    def handle_starttag(self, tag, attrs):
-        if tag != "br":
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        self.words.append(data)
-
-
 @pytest.mark.parametrize("verdict", SCENES)
 def test_the_html_says_the_same_and_takes_the_readers_colours(verdict):
     found = explain(TOPIC, SCENES[verdict])
-    html, reader = found._repr_html_(), _Reader()
-    reader.feed(html)
-    assert reader.open == []
+    html = found._repr_html_()
     assert "background" not in html
     assert ";color:" not in html
-    words = "".join(reader.words)
+    words = Parsed(html).text
     shown = [found.title, *found.headlines[1:], *found.sentences]
     shown += [text for one in found.diagnoses for text in (one.evidence, one.hint)]
     for text in shown:
