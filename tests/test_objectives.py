@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rosbeat.authoring.source import read_lesson
-from rosbeat.exercises.questions import QUESTIONS
+from rosbeat.exercises.quiz import QUESTIONS
 from rosbeat.exercises.registry import EXERCISES, PAGES
 
 LESSONS = Path(__file__).resolve().parents[1] / "src" / "lessons"

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
 
@@ -167,28 +168,11 @@ def _share(options: argparse.Namespace) -> int:
     return 0
 
 
-def _class(options: argparse.Namespace) -> int:
-    from rosbeat.grading import class_page
-
-    return class_page.run(options)
-
-
-def _release(options: argparse.Namespace) -> int:
-    from rosbeat.grading import commands
-
-    return commands.run_release(options)
-
-
-def _collect(options: argparse.Namespace) -> int:
-    from rosbeat.grading import commands
-
-    return commands.run_collect(options)
-
-
-def _grade(options: argparse.Namespace) -> int:
-    from rosbeat.grading import commands
-
-    return commands.run_grade(options)
+def _grading(module: str, function: str) -> Callable[[argparse.Namespace], int]:
+    """Return what runs a function of `grading`, whose module is imported only then."""
+    return lambda options: int(
+        getattr(import_module(f"rosbeat.grading.{module}"), function)(options)
+    )
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -204,11 +188,20 @@ COMMANDS: tuple[Command, ...] = (
     Command("check", "run all checks of a page", grading.check_arguments, _check),
     Command(
         *("release", "make what learners get: pages, no answers"),
-        *(grading.release_arguments, _release),
+        *(grading.release_arguments, _grading("commands", "run_release")),
     ),
-    Command("collect", "say who has handed in what", grading.collect_arguments, _collect),
-    Command("grade", "judge what a class has handed in", grading.grade_arguments, _grade),
-    Command("class", "show where a class is stuck, live", grading.class_arguments, _class),
+    Command(
+        *("collect", "say who has handed in what"),
+        *(grading.collect_arguments, _grading("commands", "run_collect")),
+    ),
+    Command(
+        *("grade", "judge what a class has handed in"),
+        *(grading.grade_arguments, _grading("commands", "run_grade")),
+    ),
+    Command(
+        *("class", "show where a class is stuck, live"),
+        *(grading.class_arguments, _grading("class_page", "run")),
+    ),
     Command("share", "let your class see where you are", _share_arguments, _share),
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
     Command("new", "make a folder with the course's pages", _new_arguments, _new),

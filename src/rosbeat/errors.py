@@ -226,26 +226,12 @@ def _call_error(
 
 
 def _arguments(takes: Sequence[Parameter]) -> str:
-    """Say which arguments a function takes, and which of them are optional."""
-    required: list[str] = []
-    optional: list[str] = []
-    by_name: list[str] = []
-    told = []
-    for one in takes:
-        if one.kind is Parameter.VAR_POSITIONAL:
-            told.append(f"It takes any number of `{one.name}`.")
-        elif one.kind is Parameter.KEYWORD_ONLY:
-            by_name.append(one.name)
-        else:
-            (required if one.default is Parameter.empty else optional).append(one.name)
-    if required:
-        told.insert(0, f"It needs {_listed(required)}.")
-    if optional:
-        told.append(f"{_listed(optional)} {_be(optional)} optional.")
-    if by_name:
-        told.append(
-            f"{_listed(by_name)} {_be(by_name)} optional, and {_be(by_name)} passed by name."
-        )
+    """Say which arguments a function needs, and which others it takes."""
+    needed = [one for one in takes if one.default is Parameter.empty]
+    required = [one.name for one in needed if one.kind is Parameter.POSITIONAL_OR_KEYWORD]
+    others = [one.name for one in takes if one.name not in required]
+    told = [f"It needs {_listed(required)}."] if required else []
+    told += [f"It also takes {_listed(others)}."] if others else []
     return " ".join(told) or "It takes no arguments."
 
 
@@ -256,10 +242,6 @@ def _decimal_point(takes: Sequence[Parameter], values: Sequence[object]) -> list
         if numbers and ("float" in str(one.annotation) or one.annotation == "object"):
             return [f"If you mean one number, write it with a decimal point: `{whole}.{part}`."]
     return []
-
-
-def _be(names: Sequence[str]) -> str:
-    return "is" if len(names) == 1 else "are"
 
 
 def _listed(names: Sequence[str]) -> str:

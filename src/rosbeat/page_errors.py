@@ -118,4 +118,4 @@ def _known(error: Exception, line: int, code: str) -> tuple[str, str] | None:
     from rosbeat.records import Fault
 
     found = meaning_of(Fault(0, "", "", type(error).__name__, str(error), line, code))
-    return None if found is None else (found.means, found.to_try)
+    return None if found is None else (found.evidence, found.hint)

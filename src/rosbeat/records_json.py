@@ -14,21 +14,16 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from hashlib import sha256
-from math import isfinite
 from pathlib import Path, PurePath
 from typing import Any, TypeVar
 
 import msgspec
 
 from rosbeat.errors import RecordError
-from rosbeat.records import Observation
 
 #: Not looked up when a record is written: an answer that is observed may change these modules.
 _encode, _dumps = msgspec.json.encode, json.dumps
 _Record = TypeVar("_Record")
-#: What stands before the fields of an observation in its digest.
-_OBSERVATION = {"format": "rosbeat observation", "version": 3}
 
 
 # Writing.
@@ -60,19 +55,6 @@ def as_data(value: object) -> Any:  # noqa: ANN401 - dicts, lists and texts
     return msgspec.to_builtins(value, enc_hook=_plain)
 
 
-def digest(observation: Observation) -> str:
-    """Return the SHA-256 of an observation, in hexadecimal: equal observations have equal ones."""
-    document = {**_OBSERVATION, **_finite(as_data(observation))}
-    # Added later: while they are empty, digests stay as they were.
-    later = [(document, "waits"), (document["graph"], "processes")]
-    later += [(end["qos"], "policy_alone") for end in document["graph"]["endpoints"]]
-    for place, name in later:
-        if not place[name]:
-            del place[name]
-    text = _dumps(document, sort_keys=True, separators=(",", ":"))
-    return sha256(text.encode("ascii")).hexdigest()
-
-
 def _fields_of(record: Any) -> dict[str, object]:  # noqa: ANN401 - a dataclass
     return {one.name: getattr(record, one.name) for one in fields(record)}
 
@@ -85,15 +67,6 @@ def _plain(value: object) -> object:
         if isinstance(value, kind):
             return kind(value)
     raise TypeError(f"A record holds no {type(value).__name__}.")
-
-
-def _finite(value: Any) -> Any:  # noqa: ANN401 - plain data
-    """Return what a digest is made of: only numbers that JSON has."""
-    if isinstance(value, dict):
-        return {name: _finite(one) for name, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(one) for one in value]
-    return {"$float": str(value)} if isinstance(value, float) and not isfinite(value) else value
 
 
 # Reading.
@@ -159,32 +132,18 @@ def from_json(kind: type[_Record], text: str | bytes, what: str) -> _Record:
 
 
 def _read(kind: type[_Record], text: str) -> _Record:
-    is_old = "$" in text and '{"$' in text  # the first look costs next to nothing
     try:
-        if not is_old:
-            return msgspec.json.decode(text, type=kind, dec_hook=_made)
+        return msgspec.json.decode(text, type=kind, dec_hook=_made)
     except msgspec.ValidationError:
         raise
     except ValueError:  # NaN, infinity, or half of a surrogate pair; or no JSON at all
-        pass
-    found = json.loads(text, object_hook=_unusual if is_old else None)
-    return msgspec.convert(found, kind, dec_hook=_made)
+        return msgspec.convert(json.loads(text), kind, dec_hook=_made)
 
 
 def _made(kind: type, value: object) -> object:
     if kind is Path and isinstance(value, str):
         return Path(value)
     raise TypeError(f"Expected `{kind.__name__}`, got `{type(value).__name__}`")
-
-
-def _unusual(found: dict[str, Any]) -> Any:  # noqa: ANN401 - plain data
-    """Return what an object of an older file stands for: a number, or records by columns."""
-    if found.keys() == {"$float"}:
-        return float(found["$float"])
-    if found.keys() == {"$columns"}:
-        columns = found["$columns"]
-        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-    return found
 
 
 def refusal(what: str, means: str) -> RecordError:

@@ -6,7 +6,7 @@ import pytest
 
 from bank import teaching
 from bank.teaching import DOCUMENT, LESSON, TOGETHER, blocks, numbered, write
-from rosbeat.exercises.questions import QUESTIONS
+from rosbeat.exercises.quiz import QUESTIONS
 from rosbeat.exercises.registry import EXERCISES
 
 TEXT = DOCUMENT.read_text(encoding="utf-8")

@@ -117,10 +117,10 @@ def test_every_public_function_is_called_in_one_of_these_cases():
 def test_the_second_part_lists_the_arguments():
     with pytest.raises(CallError) as told:
         viz.graph()
-    assert told.value.means == ("It needs `source`. `highlight` and `infrastructure` are optional.")
+    assert told.value.means == "It needs `source`. It also takes `highlight` and `infrastructure`."
     with pytest.raises(CallError) as told:
         Session().run()
-    assert told.value.means == ("It needs `seconds`. `quiet` is optional, and is passed by name.")
+    assert told.value.means == "It needs `seconds`. It also takes `quiet`."
     with pytest.raises(CallError) as told:
         progress("00")
     assert told.value.means == "It takes no arguments."

@@ -13,9 +13,9 @@ import pytest
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 
 import six_nodes
+from digests import digest
 from nodes import Listener, Talker
 from rosbeat import Session
-from rosbeat.records_json import digest
 
 TESTS = Path(six_nodes.__file__).parent
 #: The lead runs 200; a test suite does not need to.

@@ -134,7 +134,7 @@ CAUSES = [
     (lambda ros: None, ["topic-unknown"], ""),
     (lambda ros: ros.add(Listener), ["no-publisher"], ""),
     (lambda ros: (ros.add(Talker), ros.run(1)), ["no-subscription"], ""),
-    (removed, ["no-publisher"], "/talker published until 3 s"),
+    (removed, ["no-publisher"], ""),
     (misspelt, ["topic-misspelled"], ""),
     (of_other_qualities, ["qos-mismatch", "qos-mismatch"], ""),
     (from_a_constructor, ["not-spun"], ""),

@@ -16,11 +16,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32
 
+from digests import digest
 from limited import TOPIC, Heart, Nurse, by_the_wall, quality, virtually
 from nodes import Listener, Talker
 from rosbeat import Session
 from rosbeat.records import NANOSECONDS
-from rosbeat.records_json import digest
 from rosbeat.ros.qos_events import event_name, limit_ns, topic_of
 
 pytestmark = pytest.mark.ros

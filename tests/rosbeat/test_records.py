@@ -77,10 +77,6 @@ def test_at_equal_times_an_arrival_comes_first():
     assert [step.kind for step in queue_steps([5], [5], 1)] == ["arrived", "taken"]
 
 
-def test_taking_from_an_empty_queue_does_nothing():
-    assert queue_steps([], [1, 2], 1) == ()
-
-
 @pytest.mark.parametrize("depth", [0, -1])
 def test_a_queue_has_room_for_one_at_least(depth):
     with pytest.raises(ValueError, match="at least 1"):
@@ -110,9 +106,3 @@ def test_the_laws_of_a_queue(arrivals, takes, depth):
         if drop.kind == "dropped":
             assert drop.length == depth - 1
             assert (arrival.kind, arrival.time_ns) == ("arrived", drop.time_ns)
-
-
-@given(times, times)
-def test_a_deep_queue_drops_nothing(arrivals, takes):
-    steps = queue_steps(arrivals, takes, len(arrivals) + 1)
-    assert not any(step.kind == "dropped" for step in steps)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from rosbeat.clinic.charts import Chart, Published, Received
 from rosbeat.clinic.systems import OVERSHOOT, STEP
-from rosbeat.diagnosis.mistakes import mistake
+from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.qos import incompatible
 from rosbeat.diagnosis.silence import count, listing, seconds
 from rosbeat.errors import called_as
@@ -24,7 +24,7 @@ _SAME = 0.01
 @called_as("clinic.names()")
 def names() -> dict[str, str]:
     """Return the meaning of every diagnosis by its id, including diagnoses that never occur."""
-    return {name: mistake(name).title for name in KNOWN}
+    return {name: MISTAKES[name].title for name in KNOWN}
 
 
 def contradiction(chart: Chart, name: str, place: str) -> str:

@@ -11,7 +11,7 @@ import ast
 import re
 from typing import NamedTuple, TypeGuard
 
-from rosbeat.diagnosis.mistakes import Meaning
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.records import Argument, FailedCall, Fault
 
 #: The types of `std_msgs`, which learners of this course use.
@@ -127,7 +127,7 @@ KINDS = {
 }
 
 
-def wrong_call(fault: Fault) -> Meaning | None:
+def wrong_call(fault: Fault) -> Diagnosis | None:
     """Recognise a publisher or a subscription that was given the wrong arguments."""
     call = fault.asked
     if call is None or call.method not in _WANTED:
@@ -136,15 +136,15 @@ def wrong_call(fault: Fault) -> Meaning | None:
     unknown = [name for name in call.named if name not in {one.name for one in wanted} | _OPTIONS]
     if unknown:
         means = f"{call.method} has no argument called {unknown[0]}."
-        return Meaning("wrong-argument", means, order)
+        return Diagnosis("wrong-argument", means, order)
     if len(call.given) > len(wanted):
         means = f"{call.method} was given {len(call.given)} arguments, but takes {len(wanted)}."
-        return Meaning("wrong-argument", means, order)
+        return Diagnosis("wrong-argument", means, order)
     left = [one for one in wanted if one.name not in call.named]
     return _missing(call, left) or _swapped(call, left) or _of_another_kind(call, left)
 
 
-def _missing(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
+def _missing(call: FailedCall, left: list[_Parameter]) -> Diagnosis | None:
     lacking = len(left) - len(call.given)
     if lacking <= 0:
         return None
@@ -159,19 +159,19 @@ def _missing(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
     name = _MISSING.get(missing[0].role, "argument-missing") if lacking == 1 else "argument-missing"
     asks = " What is the last one for?" if name == "depth-missing" else ""
     means = f"{call.method} was called without {words}."
-    return Meaning(name, means, ORDER[call.method] + asks)
+    return Diagnosis(name, means, ORDER[call.method] + asks)
 
 
-def _swapped(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
+def _swapped(call: FailedCall, left: list[_Parameter]) -> Diagnosis | None:
     got, order = [role_of(one) for one in call.given], [one.role for one in left]
     if got == order or sorted(got) != sorted(order):
         return None
     at = next(at for at, role in enumerate(order) if got[at] != role)
     means = f"{call.method} got {in_words(call.given[at])} instead of {left[at].words}."
-    return Meaning("arguments-swapped", means, ORDER[call.method])
+    return Diagnosis("arguments-swapped", means, ORDER[call.method])
 
 
-def _of_another_kind(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
+def _of_another_kind(call: FailedCall, left: list[_Parameter]) -> Diagnosis | None:
     named = [(one, call.named[one.name]) for one in _WANTED[call.method] if one.name in call.named]
     for (role, _, words), given in [*zip(left, call.given, strict=False), *named]:
         found = role_of(given)
@@ -184,32 +184,31 @@ def _of_another_kind(call: FailedCall, left: list[_Parameter]) -> Meaning | None
         if role != "type" and not (role == "callback" and found == "other"):
             mistake = "wrong-depth" if role == "depth" else "wrong-argument"
             means = f"{call.method} got {in_words(given)} instead of {words}."
-            return Meaning(mistake, means, KINDS[role])
+            return Diagnosis(mistake, means, KINDS[role])
     return None
 
 
-def no_message_type(given: Argument | None) -> Meaning:
+def no_message_type(given: Argument | None) -> Diagnosis:
     """Return the meaning of something that stands in the place of the message type (row 8)."""
     if given is not None and given.kind == "message":
-        return Meaning(
+        return Diagnosis(
             "not-a-message-type",
             f"A message of type {given.name} was given where its class is expected.",
             "This call needs the class itself, because it doesn't send a message yet. What do "
             "the parentheses do?",
         )
     what = in_words(given) if given is not None else "something else"
-    return Meaning(
+    return Diagnosis(
         "not-a-message-type",
         f"The message type is missing: this call got {what} instead.",
         "A message type is a class that you import from a message package. Which type does this "
         "topic carry?",
-        "(The error mentions ROS 1, but that's only a guess.)",
     )
 
 
-def callback_called(subject: str) -> Meaning:
+def callback_called(subject: str) -> Diagnosis:
     """Return the meaning of a callback that is None, since it was called (row 9)."""
-    return Meaning(
+    return Diagnosis(
         "callback-called",
         f"{subject} is None. That happens when the method is called right here: its return "
         "value, None, is passed instead of the method.",
@@ -226,14 +225,14 @@ _WITH_MESSAGE = (
 )
 
 
-def refused_callback(fault: Fault) -> Meaning | None:
+def refused_callback(fault: Fault) -> Diagnosis | None:
     """Recognise a callback that cannot be called with a message (rows 9 and 10)."""
     refused = r"callback should be either be callable|invalid method signature"
     if not matched(fault, refused):
         return None
     callback = _part(fault.asked, 2, "callback") if fault.asked else None
     if callback is None:
-        return Meaning(
+        return Diagnosis(
             "wrong-argument",
             "The callback argument is something that cannot be called with a message.",
             f"A callback takes self and the message. {_HAND_OVER}",
@@ -248,7 +247,7 @@ def _part(call: FailedCall, at: int, name: str) -> Argument | None:
     return call.named.get(name) or (call.given[at] if len(call.given) > at else None)
 
 
-def _parameters(callback: Argument) -> Meaning:
+def _parameters(callback: Argument) -> Diagnosis:
     names = callback.parameters
     if names is None:
         means = f"{callback.name or 'The callback'} cannot be called with a message."
@@ -258,10 +257,10 @@ def _parameters(callback: Argument) -> Meaning:
         )
     else:
         means = f"{callback.name} has no parameter for the message."
-    return Meaning("callback-parameters", means, _WITH_MESSAGE)
+    return Diagnosis("callback-parameters", means, _WITH_MESSAGE)
 
 
-def called_at_once(fault: Fault) -> Meaning | None:
+def called_at_once(fault: Fault) -> Diagnosis | None:
     """Recognise a callback that was called in order to be handed over (row 9)."""
     call = fault.asked
     if call and call.given and call.given[0].kind == "called":
@@ -274,9 +273,9 @@ def called_at_once(fault: Fault) -> Meaning | None:
     return _called(name) if name and is_argument(fault.code, name) else None
 
 
-def _called(name: str) -> Meaning:
+def _called(name: str) -> Diagnosis:
     means = f"{name} is called while the node is being created, instead of being passed."
-    return Meaning("callback-called", means, _HAND_OVER)
+    return Diagnosis("callback-called", means, _HAND_OVER)
 
 
 def is_argument(code: str, name: str) -> bool:
@@ -301,7 +300,7 @@ def called_callback(name: str) -> FailedCall:
 # Timers.
 
 
-def wrong_timer(fault: Fault) -> Meaning | None:
+def wrong_timer(fault: Fault) -> Diagnosis | None:
     """Recognise a `create_timer` that was given the wrong arguments."""
     call = fault.asked
     if call is None or call.method != "create_timer":
@@ -310,17 +309,17 @@ def wrong_timer(fault: Fault) -> Meaning | None:
     period, callback = _part(call, 0, "timer_period_sec"), _part(call, 1, "callback")
     if period and role_of(period) == "callback" and callback:
         means = "create_timer got the callback instead of the period."
-        return Meaning("arguments-swapped", means, order)
+        return Diagnosis("arguments-swapped", means, order)
     if period is None or role_of(period) == "callback":
-        return Meaning("argument-missing", "create_timer was called without a period.", order)
+        return Diagnosis("argument-missing", "create_timer was called without a period.", order)
     if callback is None:
-        return Meaning("callback-missing", "create_timer was called without a callback.", order)
+        return Diagnosis("callback-missing", "create_timer was called without a callback.", order)
     if len(call.given) > 2:
-        return Meaning("wrong-argument", "create_timer was given too many arguments.", order)
+        return Diagnosis("wrong-argument", "create_timer was given too many arguments.", order)
     means = f"create_timer got {in_words(period)} as its period."
     if period.kind in ("int", "float"):
         means = "The timer's period is a number of seconds that no clock can measure."
-    return Meaning("wrong-rate", means, PERIOD)
+    return Diagnosis("wrong-rate", means, PERIOD)
 
 
 #: What the period of a timer may be.

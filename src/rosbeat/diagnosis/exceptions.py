@@ -11,16 +11,16 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
 from rosbeat.diagnosis import calls
 from rosbeat.diagnosis.calls import MESSAGES, article, called_by_ros, matched
-from rosbeat.diagnosis.mistakes import Diagnosis, Meaning
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.records import Fault
 
 #: A rule knows one kind of mistake, and answers None if an exception is none of its kind.
-Rule = Callable[[Fault], "Meaning | None"]
+Rule = Callable[[Fault], "Diagnosis | None"]
 Found = re.Match[str]
 
 
@@ -31,31 +31,31 @@ class Row:
     Attributes:
         mistake: The mistake's id.
         error: A regular expression that is looked for in the error, such as `TypeError: ...`.
-        means: What happened; `{1}` is the first group of the pattern that took part in the match.
-        to_try: Where to look, with groups as well.
+        evidence: What happened; `{1}` is the first group of the pattern that has matched.
+        hint: Where to look, with groups as well.
         line: A regular expression that the learner's line has to hold, too.
         when: What else has to be true.
     """
 
     mistake: str
     error: str
-    means: str
-    to_try: str
+    evidence: str
+    hint: str
     line: str = ""
     when: Callable[[Fault, Found], bool] = lambda _, __: True
 
-    def __call__(self, fault: Fault) -> Meaning | None:
+    def __call__(self, fault: Fault) -> Diagnosis | None:
         """Return the meaning of an exception of this kind; None for any other."""
         found = matched(fault, self.error)
         if not found or not re.search(self.line, fault.code) or not self.when(fault, found):
             return None
         groups = (one.replace("'", "") for one in found.groups() if one is not None)
         words = [found[0], *groups]
-        return Meaning(self.mistake, self.means.format(*words), self.to_try.format(*words))
+        return Diagnosis(self.mistake, self.evidence.format(*words), self.hint.format(*words))
 
 
-def meaning_of(fault: Fault) -> Meaning | None:
-    """Return what an exception means, if it comes from a known mistake; else None."""
+def meaning_of(fault: Fault) -> Diagnosis | None:
+    """Return the known mistake that an exception comes from, without who raised it; else None."""
     found = (rule(fault) for rule in _RULES)
     return next((meaning for meaning in found if meaning is not None), None)
 
@@ -73,12 +73,12 @@ def diagnose_fault(fault: Fault) -> Diagnosis | None:
     return None if meaning is None else diagnosed(fault, meaning)
 
 
-def diagnosed(fault: Fault, meaning: Meaning) -> Diagnosis:
-    """Return a meaning as a diagnosis: with who raised, and the learner's line, as evidence."""
-    if fault.text == meaning.means:  # the session itself refused; its sentence is complete
-        return Diagnosis(meaning.mistake, meaning.means, meaning.to_try)
+def diagnosed(fault: Fault, meaning: Diagnosis) -> Diagnosis:
+    """Return a mistake with who raised, and the learner's line, as further evidence."""
+    if fault.text == meaning.evidence:  # the session itself refused; its sentence is complete
+        return meaning
     raised = _raised(fault) if fault.callback else ""
-    return Diagnosis(meaning.mistake, f"{raised}{meaning.means}{line_of(fault)}", meaning.to_try)
+    return replace(meaning, evidence=f"{raised}{meaning.evidence}{line_of(fault)}")
 
 
 def _raised(fault: Fault) -> str:
@@ -122,7 +122,7 @@ _SUPER = (
 _NAME = "The parent's constructor, super().__init__, takes the node's name, a string in quotes."
 
 
-def _no_node(fault: Fault) -> Meaning | None:
+def _no_node(fault: Fault) -> Diagnosis | None:
     """Recognise something handed over that is no node; the sentence is the session's own."""
     if fault.kind != "NodeClassError" or not fault.text:
         return None
@@ -137,10 +137,10 @@ def _no_node(fault: Fault) -> Meaning | None:
             "A function that creates a node has to return it. What does the function's last line "
             "do?"
         )
-    return Meaning("no-node", fault.text, to_try)
+    return Diagnosis("no-node", fault.text, to_try)
 
 
-def _name_missing(fault: Fault) -> Meaning | None:
+def _name_missing(fault: Fault) -> Diagnosis | None:
     """Recognise `super().__init__()` without a name (row 11)."""
     found = matched(fault, r"\b(\w*)Node\.__init__\(\) missing 1 .*'node_name'")
     # An `AlarmNode` is a class of the learner's, and only its heirs leave the name out.
@@ -150,10 +150,10 @@ def _name_missing(fault: Fault) -> Meaning | None:
     call = fault.asked
     if call and call.given and call.given[0].kind == "str":
         means = "Node.__init__ was called without self, the node that it initializes."
-        return Meaning("super-missing", means, _SUPER)
+        return Diagnosis("super-missing", means, _SUPER)
     if fault.line and fault.callback == "__init__":
-        return Meaning("node-name-missing", "The node was created without a name.", _NAME)
-    return Meaning(
+        return Diagnosis("node-name-missing", "The node was created without a name.", _NAME)
+    return Diagnosis(
         "node-name-missing",
         "The class has no constructor of its own that gives the node a name.",
         "Look at the line that should begin the constructor: is it spelled `__init__`, with two "
@@ -161,19 +161,19 @@ def _name_missing(fault: Fault) -> Meaning | None:
     )
 
 
-def _wrong_name_argument(fault: Fault) -> Meaning | None:
+def _wrong_name_argument(fault: Fault) -> Diagnosis | None:
     """Recognise `super().__init__(5)` and `super().__init__(self, 'name')`."""
     call = fault.asked
     if call is None or call.method != "Node.__init__":
         return None
     if len(call.given) > 1 and call.given[0].kind == call.given[1].kind:
         means = "super().__init__ was given self, although super() already passes it."
-        return Meaning("wrong-argument", means, _NAME)
+        return Diagnosis("wrong-argument", means, _NAME)
     name = call.named.get("node_name") or (call.given[1] if len(call.given) > 1 else None)
     if name is None or name.kind == "str":
         return None
     means = f"The node got {calls.in_words(name)} instead of its name."
-    return Meaning("wrong-argument", means, _NAME)
+    return Diagnosis("wrong-argument", means, _NAME)
 
 
 _NODE_RULES: tuple[Rule, ...] = (
@@ -236,17 +236,17 @@ _WHO_SPINS = (
 )
 
 
-def _blocks(fault: Fault) -> Meaning | None:
+def _blocks(fault: Fault) -> Diagnosis | None:
     """Recognise a callback or a constructor that does not return (row 16)."""
     if fault.kind == "DeadlinePassed":
         return _stuck(fault)
     if fault.kind == "DeadlockError":
-        return Meaning("callback-blocks", fault.text.partition("\n")[0], _WHO_SPINS)
+        return Diagnosis("callback-blocks", fault.text.partition("\n")[0], _WHO_SPINS)
     inside = r"was called (from )?inside|spin_once was called for"
     if fault.kind != "SessionError" or not matched(fault, inside):
         return None
     call = matched(fault, r"`?(rclpy\.\w+|[\w.]+)`? was called")
-    return Meaning(
+    return Diagnosis(
         "callback-blocks",
         f"{call[1] if call else 'A wait'} waits for callbacks, but no other callback can run "
         "until this one returns.",
@@ -279,18 +279,18 @@ _QUICK = (
 )
 
 
-def _stuck(fault: Fault) -> Meaning:
+def _stuck(fault: Fault) -> Diagnosis:
     anew = re.match(r"(\d+ (?:publishers|subscriptions|timers)\b.*) in (\d+) calls$", fault.text)
     if anew:
         means = (
             f"{fault.callback} created {anew[1]} in {anew[2]} calls, and each one slows the "
             "node down."
         )
-        return Meaning("made-anew", means, _ONCE)
+        return Diagnosis("made-anew", means, _ONCE)
     slow = re.match(r"(\d+) calls of callbacks took", fault.text)
     if slow:
         means = f"The run is too slow: {fault.text}, and it was not over."
-        return Meaning("slow-callback", means, _QUICK)
+        return Diagnosis("slow-callback", means, _QUICK)
     waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
     loops = re.match(r"(while|for)\b", fault.code) is not None
     if fault.callback == "__init__":
@@ -299,19 +299,19 @@ def _stuck(fault: Fault) -> Meaning:
             "return?"
         )
         means = f"The constructor does not return: {fault.text}."
-        return Meaning("constructor-blocks", means, _SET_UP if waits or loops else ends)
+        return Diagnosis("constructor-blocks", means, _SET_UP if waits or loops else ends)
     ends = "While this callback runs, the node can do nothing else. What makes the callback return?"
     means = f"{fault.callback or 'The program'} does not return: {fault.text}."
-    return Meaning("callback-blocks", means, _NO_WAIT if waits else _NO_LOOP if loops else ends)
+    return Diagnosis("callback-blocks", means, _NO_WAIT if waits else _NO_LOOP if loops else ends)
 
 
-def _endless(fault: Fault) -> Meaning | None:
+def _endless(fault: Fault) -> Diagnosis | None:
     """Recognise callbacks that cause each other while no time passes."""
     if fault.kind != "EndlessChainError" or not fault.text:
         return None
     if fault.text.startswith("A timer of "):
-        return Meaning("wrong-rate", fault.text, calls.PERIOD)
-    return Meaning(
+        return Diagnosis("wrong-rate", fault.text, calls.PERIOD)
+    return Diagnosis(
         "endless-chain",
         fault.text,
         "Each callback triggers the next one, and no time passes. Does a node receive the "
@@ -330,7 +330,7 @@ _NO_SELF = "has no parameters, but Python passes every method its own object."
 _OTHER_DEFS = "Compare the method's `def` line with those of the other methods in the class."
 
 
-def _called_with_others(fault: Fault) -> Meaning | None:
+def _called_with_others(fault: Fault) -> Diagnosis | None:
     """Recognise a timer's callback that takes a message, or no self (row 10)."""
     found = matched(fault, r"^TypeError: [\w.<>]*?(\w+)\(\) (takes 0|missing \d+) ")
     if not found or found[1] == "__init__" or not called_by_ros(fault):
@@ -344,24 +344,24 @@ def _called_with_others(fault: Fault) -> Meaning | None:
     if found[2] == "takes 0":
         means = f"{name} {_NO_SELF}"
         to_try = _OTHER_DEFS
-    return Meaning("callback-parameters", means, to_try)
+    return Diagnosis("callback-parameters", means, to_try)
 
 
-def _nothing_to_call(fault: Fault) -> Meaning | None:
+def _nothing_to_call(fault: Fault) -> Diagnosis | None:
     """Recognise a timer that was given `self.tick()`: it fails at its first tick (row 9)."""
     found = matched(fault, r"^TypeError: '(\w+)' object is not callable$")
     if not found or not called_by_ros(fault):
         return None
     if found[1] == "NoneType":
         return calls.callback_called("The timer's callback")
-    return Meaning(
+    return Diagnosis(
         "wrong-argument",
         f"The timer's callback is an object of type {found[1]}, which cannot be called.",
         calls.KINDS["callback"],
     )
 
 
-def _not_a_message_type(fault: Fault) -> Meaning | None:
+def _not_a_message_type(fault: Fault) -> Diagnosis | None:
     """Recognise row 8 by rclpy's text alone."""
     if not matched(fault, r"has no attribute '_TYPE_SUPPORT'"):
         return None
@@ -394,7 +394,7 @@ _CALL_RULES: tuple[Rule, ...] = (
 # Services and actions: what a callback gives back, and how work on a goal ends.
 
 
-def _not_given_back(fault: Fault) -> Meaning | None:
+def _not_given_back(fault: Fault) -> Diagnosis | None:
     """Recognise a service's callback that does not give back its response."""
     call = fault.asked
     if call is None or call.method != "send_response" or fault.kind != "TypeError":
@@ -402,20 +402,20 @@ def _not_given_back(fault: Fault) -> Meaning | None:
     (given,) = call.given or (None,)
     if given is not None and given.kind == "NoneType":
         means = f"{fault.callback} returns nothing, so the client never gets a response."
-        return Meaning(
+        return Diagnosis(
             "response-missing",
             means,
             "A service's callback ends with a return. What does it return?",
         )
     what = calls.in_words(given) if given is not None else "something"
-    return Meaning(
+    return Diagnosis(
         "response-wrong",
         f"{fault.callback} returns {what} instead of the response that it received.",
         "ROS passes the callback an empty response. Fill its fields, and return that object.",
     )
 
 
-def _called_with_more(fault: Fault) -> Meaning | None:
+def _called_with_more(fault: Fault) -> Diagnosis | None:
     """Recognise a service's callback without `response`, or a parameter's without its list."""
     counts = r"(\w+)\(\) takes (\d+) positional arguments? but (\d+) (?:was|were)"
     found = matched(fault, rf"^TypeError: (?:[\w.<>]*\.)?{counts}")
@@ -428,7 +428,7 @@ def _called_with_more(fault: Fault) -> Meaning | None:
     if re.match(r"[\w.<>]*(?<!<locals>)\.\w+\(\)", fault.text):  # a method
         besides, takes, given = " besides self", takes - 1, given - 1
     counted = f"{given} argument" if given == 1 else f"{given} arguments"
-    return Meaning(
+    return Diagnosis(
         "callback-parameters",
         f"ROS calls {name} with {counted}{besides}, but {name} takes {takes or 'none'}.",
         _HANDED_ONE if given == 1 else _HANDED_TWO,
@@ -523,26 +523,26 @@ _TAKES = {
 }
 
 
-def _without_a_name(fault: Fault) -> Meaning | None:
+def _without_a_name(fault: Fault) -> Diagnosis | None:
     """Recognise `Duration(2)`: an argument that has to have a name."""
     found = matched(fault, rf"^TypeError: ({_QOS_CALLS})\.__init__\(\) takes 1 positional")
     if not found:
         return None
-    return Meaning(
+    return Diagnosis(
         "wrong-argument",
         f"{found[1]} was given a positional argument.",
         f"{found[1]} takes keyword arguments only: {_TAKES.get(found[1], _EVENTS)}.",
     )
 
 
-def _of_another_name(fault: Fault) -> Meaning | None:
+def _of_another_name(fault: Fault) -> Diagnosis | None:
     """Recognise an argument under a name that is not there."""
     said = rf"^TypeError: ({_QOS_CALLS})\.__init__\(\) got an unexpected .*'(\w+)'"
     found = matched(fault, said)
     called, name = (found[1], found[2]) if found else ("QoSProfile", _unknown_policy(fault))
     if not name:
         return None
-    return Meaning(
+    return Diagnosis(
         "wrong-argument",
         f"{called} has no argument {name}.",
         f"{called} takes {_TAKES.get(called, _EVENTS)}. Compare the names letter by letter.",
@@ -555,7 +555,7 @@ def _unknown_policy(fault: Fault) -> str:
     return next((name for name in names if name not in _POLICIES), "")
 
 
-def _policy_of_another_kind(fault: Fault) -> Meaning | None:
+def _policy_of_another_kind(fault: Fault) -> Diagnosis | None:
     """Recognise a text or a number where a policy or a duration belongs."""
     if fault.kind != "AssertionError" or fault.text:
         return None
@@ -565,7 +565,7 @@ def _policy_of_another_kind(fault: Fault) -> Meaning | None:
     if len(policies) > 1 and "depth" in policies:
         policies.remove("depth")  # a number, and people know how to write one
     which = policies[0] if len(policies) == 1 else "one of the policies"
-    return Meaning(
+    return Diagnosis(
         "wrong-argument",
         f"QoSProfile was given an invalid value for {which}.",
         "A depth is a whole number, and a deadline or a lifespan is a Duration. The values for "
@@ -573,13 +573,13 @@ def _policy_of_another_kind(fault: Fault) -> Meaning | None:
     )
 
 
-def _no_such_policy(fault: Fault) -> Meaning | None:
+def _no_such_policy(fault: Fault) -> Diagnosis | None:
     """Recognise `DurabilityPolicy.TRANSIENT`: Python 3.11 says no more than the name."""
     name = matched(fault, r"^AttributeError: ([A-Za-z_]+)$")
     found = re.search(rf"(\w*Policy)\.{name[1]}\b", fault.code) if name else None
     if not name or not found:
         return None
-    return Meaning(
+    return Diagnosis(
         "wrong-attribute",
         f"{found[1]} has no {name[1]}.",
         f"Compare the name with the ones on the page, or print list({found[1]}).",
@@ -626,14 +626,14 @@ _TOO_MANY = (
 )
 
 
-def _decimal_comma(fault: Fault) -> Meaning | None:
+def _decimal_comma(fault: Fault) -> Diagnosis | None:
     """Recognise `sleep(0,5)` in the place of `sleep(0.5)`, which hands over two numbers."""
     found, call = _COMMA.search(fault.code), fault.asked
     timer = call is not None and call.method == "create_timer" and len(call.given) > 2
     other = re.search(rf"\b(?:{_MESSAGE}|create_publisher|create_subscription)\(", fault.code)
     if not found or other or not (timer or matched(fault, _TOO_MANY)):
         return None
-    return Meaning(
+    return Diagnosis(
         "wrong-argument",
         f"{found[0]} isn't one number in Python, but two arguments: {found[1]} and {found[2]}.",
         f"Write a decimal number with a point: {found[1]}.{found[2]}.",
@@ -672,7 +672,7 @@ _NO_RETURN = (
 _PLAIN_KINDS = ("int", "bool", "str", "float", "bytes", "list", "tuple", "dict")
 
 
-def _field_of_another_type(fault: Fault) -> Meaning | None:
+def _field_of_another_type(fault: Fault) -> Diagnosis | None:
     """Recognise `msg.data = 25`: a value of another type than the field's (row 1)."""
     found = matched(fault, r"The '(\w+)' field must be of type '(\w+)'")
     if not found:
@@ -696,7 +696,7 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
     else:
         got = "the value given is something else"
     means = f"The field {name} of the message takes {article(wanted)}, but {got}."
-    return Meaning(mistake, means, to_try)
+    return Diagnosis(mistake, means, to_try)
 
 
 def _constant_for(code: str, name: str) -> str:
@@ -716,20 +716,20 @@ def _constant_for(code: str, name: str) -> str:
     return ""
 
 
-def _field_of_another_name(fault: Fault) -> Meaning | None:
+def _field_of_another_name(fault: Fault) -> Diagnosis | None:
     """Recognise `Float32(dat=25.0)` (row 4)."""
     found = matched(fault, r"Invalid arguments passed to constructor: (.+)")
     if not found:
         return None
     kind = re.search(rf"\b({_MESSAGE})\(", fault.code)
-    return Meaning(
+    return Diagnosis(
         "wrong-keyword",
         f"The message has no field called {found[1]}.",
         "Compare the name letter by letter. " + _SHOW.format("", kind[1] if kind else "Float32"),
     )
 
 
-def _published(fault: Fault) -> Meaning | None:
+def _published(fault: Fault) -> Diagnosis | None:
     """Recognise `publish(25.0)`, `publish(Float32)` (rows 2 and 3), or another type's message."""
     call = fault.asked
     if call and call.method == "publish" and [one.kind for one in call.given] == ["bytes"]:
@@ -740,13 +740,13 @@ def _published(fault: Fault) -> Meaning | None:
     wanted, got = found[1].split(".")[-1], found[2].split(".")[-1]
     if got.startswith("Metaclass_"):
         name = got.removeprefix("Metaclass_")
-        return Meaning(
+        return Diagnosis(
             "class-published",
             f"publish was given the class {name} itself instead of a message.",
             "Calling a class creates an object, here a message. How do you call a class?",
         )
     if ".msg." in found[2]:
-        return Meaning(
+        return Diagnosis(
             "type-mismatch",
             f"The publisher was created for messages of type {wanted}, but was given a {got}.",
             "All messages on a topic have the same type. Compare the line that creates the "
@@ -755,9 +755,9 @@ def _published(fault: Fault) -> Meaning | None:
     return _value_published(wanted, got)
 
 
-def _value_published(wanted: str, got: str) -> Meaning:
+def _value_published(wanted: str, got: str) -> Diagnosis:
     words = {"NoneType": "None", "bytes": "bytes"}.get(got, article(got))
-    return Meaning(
+    return Diagnosis(
         "number-published",
         f"publish was given {words} instead of a message.",
         f"Create a {wanted} first and assign the value to its field, then publish that message.",
@@ -814,14 +814,14 @@ _KNOWN_MODULES = ("rclpy", "rclpy.node", "rclpy.qos", "std_msgs", "std_msgs.msg"
 _LEVELS = ("debug", "info", "warning", "warn", "error", "fatal")
 
 
-def _name_error(fault: Fault) -> Meaning | None:
+def _name_error(fault: Fault) -> Diagnosis | None:
     """Recognise a name that is defined nowhere."""
     found = matched(fault, r"^NameError: name '(\w+)' is not defined")
     if not found:
         return None
     meant = matched(fault, _SUGGESTED)
     means = f"The name {found[1]} is not defined here."
-    return Meaning("name-error", means, _about(found[1], meant[1] if meant else ""))
+    return Diagnosis("name-error", means, _about(found[1], meant[1] if meant else ""))
 
 
 def _about(name: str, meant: str) -> str:
@@ -841,7 +841,7 @@ def _about(name: str, meant: str) -> str:
     )
 
 
-def _not_assigned_yet(fault: Fault) -> Meaning | None:
+def _not_assigned_yet(fault: Fault) -> Diagnosis | None:
     """Recognise a variable of a function that has no value yet."""
     if fault.kind != "UnboundLocalError":
         return None
@@ -850,8 +850,8 @@ def _not_assigned_yet(fault: Fault) -> Meaning | None:
     if re.search(rf"^{name} = .*\(\s*{name}\b", fault.code):
         means = f"{name} has no value yet: this line reads {name} before it assigns a value."
         to_try = "If you mean the name itself, it's a string, and a string needs quotes."
-        return Meaning("no-value-yet", means, to_try)
-    return Meaning(
+        return Diagnosis("no-value-yet", means, to_try)
+    return Diagnosis(
         "no-value-yet",
         f"{name} has no value yet at this line.",
         "Its assignment is in a branch that was not taken, or on a later line. A value to keep "
@@ -859,7 +859,7 @@ def _not_assigned_yet(fault: Fault) -> Meaning | None:
     )
 
 
-def _no_such_attribute(fault: Fault) -> Meaning | None:
+def _no_such_attribute(fault: Fault) -> Diagnosis | None:
     """Recognise `self.create_publisherr(...)`, `self.tempreature`, `random.unifrom(...)`."""
     owners = r"(?:'(\w+)' object|module '([\w.]+)'|type object '(\w+)')"
     found = matched(fault, rf"^AttributeError: {owners} has no attribute '(\w+)'")
@@ -870,12 +870,12 @@ def _no_such_attribute(fault: Fault) -> Meaning | None:
     if meant:
         plain = meant.removeprefix("self.").lower()
         alike = get_close_matches(name.lower(), [plain], 1, 0.7)
-        return Meaning(
+        return Diagnosis(
             "wrong-attribute",
             f"{owner} has no attribute {name}; it has {meant}.",
             "Compare the two letter by letter." if alike else "Is that the one you mean?",
         )
-    return Meaning("wrong-attribute", f"{owner} has no attribute {name}.", _where(fault, found))
+    return Diagnosis("wrong-attribute", f"{owner} has no attribute {name}.", _where(fault, found))
 
 
 def _meant(fault: Fault, owner: str, name: str) -> str:
@@ -904,21 +904,21 @@ def _where(fault: Fault, found: Found) -> str:
     )
 
 
-def _not_importable(fault: Fault) -> Meaning | None:
+def _not_importable(fault: Fault) -> Diagnosis | None:
     """Recognise `from std_msgs.msg import Float` and `import rclpi`."""
     name = matched(fault, r"cannot import name '(\w+)' from '([\w.]+)'")
     if name:
         near = get_close_matches(name[1], sorted(MESSAGES), 1, 0.6) if "msg" in name[2] else []
         meant = f" It has {near[0]}." if near and near[0] != name[1] else ""
         hint = "Compare the name and its module with the imports on the page."
-        return Meaning("not-importable", f"{name[2]} has no {name[1]}.{meant}", hint)
+        return Diagnosis("not-importable", f"{name[2]} has no {name[1]}.{meant}", hint)
     module = matched(fault, r"No module named '([\w.]+)'")
     if not module:
         return None
     near = get_close_matches(module[1], _KNOWN_MODULES, 1, 0.7)
     meant = f" There is {near[0]}." if near and near[0] != module[1] else ""
     hint = "Compare the module's name letter by letter with the imports on the page."
-    return Meaning("not-importable", f"There is no module called {module[1]} here.{meant}", hint)
+    return Diagnosis("not-importable", f"There is no module called {module[1]} here.{meant}", hint)
 
 
 _NAME_RULES: tuple[Rule, ...] = (

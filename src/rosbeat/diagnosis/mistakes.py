@@ -7,7 +7,12 @@ belong to one exercise or another and have no row.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from dataclasses import dataclass
+from html import escape
+
+_CODE = re.compile(r"`([^`\n]+)`")
 
 
 @dataclass(frozen=True)
@@ -44,28 +49,6 @@ class Diagnosis:
     mistake: str
     evidence: str
     hint: str
-
-
-@dataclass(frozen=True)
-class Meaning:
-    """Hold what an error means, in the words of this course.
-
-    Attributes:
-        mistake: Its id, from `mistakes.MISTAKES`.
-        means: What happened, as a sentence or two.
-        to_try: Where to look, without the answer, one or two sentences.
-        aside: A sentence about the error's own words, for where they stand above; may be empty.
-    """
-
-    mistake: str
-    means: str
-    to_try: str
-    aside: str = ""
-
-    @property
-    def beside_error(self) -> str:
-        """Return what happened, said where the error's own words can be read."""
-        return f"{self.means} {self.aside}".strip()
 
 
 #: What a failed outcome is called if no mistake was recognised.
@@ -399,10 +382,15 @@ _OF_PAGES = (
 MISTAKES: dict[str, Mistake] = {one.id: one for one in (*_OF_THE_TABLE, *_OTHERS, *_OF_PAGES)}
 
 
-def mistake(name: str) -> Mistake:
-    """Return a mistake by its id.
+def in_html(text: str, code: Callable[[str], str] = escape) -> str:
+    """Return the HTML of what is said; what stands between backquotes becomes a `<code>` element.
 
-    Raises:
-        KeyError: If there is no such mistake.
+    Args:
+        text: Any text.
+        code: Makes the HTML of what is inside such an element.
     """
-    return MISTAKES[name]
+    plain_and_code = _CODE.split(text)
+    return "".join(
+        f"<code>{code(part)}</code>" if number % 2 else escape(part)
+        for number, part in enumerate(plain_and_code)
+    )

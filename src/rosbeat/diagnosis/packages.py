@@ -322,9 +322,7 @@ def _flaw_of_form(entry: EntryPoint) -> Flaw | None:
     module = entry.module
     forms: tuple[tuple[object, str, str, str], ...] = (
         (entry.joined, "missing-comma", entry.text, ""),
-        ("=" not in entry.text, "no-equals", entry.text, ""),
-        (entry.text.count("=") > 1 and "[" not in entry.text, "two-equals", entry.text, ""),
-        (not _NAME.fullmatch(entry.executable), "bad-name", entry.executable, ""),
+        (not _is_of_the_form(entry), "form", entry.text, ""),
         ("/" in module, "slash", module, module.replace("/", ".").removesuffix(".py")),
         (module.endswith(".py"), "suffix", module, module.removesuffix(".py")),
         (not entry.function, "no-function-part", module, "main"),
@@ -332,6 +330,12 @@ def _flaw_of_form(entry: EntryPoint) -> Flaw | None:
     )
     found = (Flaw(kind, entry, wrong, right) for holds, kind, wrong, right in forms if holds)
     return next(found, None)
+
+
+def _is_of_the_form(entry: EntryPoint) -> bool:
+    # An extra in brackets may hold another sign.
+    signs = "=" in entry.text if "[" in entry.text else entry.text.count("=") == 1
+    return signs and _NAME.fullmatch(entry.executable) is not None
 
 
 def _flaw_of_target(entry: EntryPoint, folder: Path) -> Flaw | None:
@@ -353,7 +357,6 @@ def _nearest_module(module: str, folder: Path) -> str:
     return nearest(module, known) or tails.get(module.rpartition(".")[2], "")
 
 
-_FORM = "The entry point on line {entry.line} of {entry.file} "
 _NAMED = "The entry point {entry.executable} in {entry.file} names "
 BROKEN = Diagnosis("syntax-error",
     "Python cannot read {path}: there is a syntax error on line {line} or just before it.",
@@ -366,17 +369,13 @@ FLAWS = {
         "A comma is missing in {entry.file}, between the entry point on line {entry.line} and "
         "the next one: without it, Python joins two adjacent strings into one.",
         "Put a comma at the end of every entry point."),
-    "no-equals": Diagnosis("entry-point-form",
-        f"{_FORM}has no `=`.",
-        "Write it as in  'name = package.module:main'."),
-    "two-equals": Diagnosis("entry-point-form",
-        f"{_FORM}has more than one `=`.",
-        "Write it with a single `=`, as in  'name = package.module:main'."),
-    "bad-name": Diagnosis("entry-point-form",
-        f"{_FORM}has no usable name before the `=`.",
-        "Write the name there that you want to type after the package in `ros2 run`."),
+    "form": Diagnosis("entry-point-form",
+        "The entry point on line {entry.line} of {entry.file} is not of the form  name = "
+        "package.module:function.",
+        "Write a name, a single `=`, and the function, as in  'name = package.module:main'."),
     "slash": Diagnosis("slash-in-module",
-        f"{_FORM}names its module with a `/`, like a path.",
+        "The entry point on line {entry.line} of {entry.file} names its module with a `/`, like a "
+        "path.",
         "The parts of a Python module's name are separated by dots: {right}"),
     "suffix": Diagnosis("entry-point-target",
         f"{_NAMED}a file, {{wrong}}.",

@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from rosbeat.diagnosis.calls import called_callback, is_argument, matched, written_call
 from rosbeat.diagnosis.exceptions import diagnosed, meaning_of
-from rosbeat.diagnosis.mistakes import Diagnosis, Meaning
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.records import Fault
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
@@ -59,12 +59,10 @@ def diagnose_output(text: str) -> Diagnosis | None:
     if meaning is None:
         return None
     fault = fault_in(text)
-    if fault is None:
-        return Diagnosis(meaning.mistake, meaning.means, meaning.to_try)
-    return diagnosed(fault, meaning)
+    return meaning if fault is None else diagnosed(fault, meaning)
 
 
-def meaning_of_output(text: str) -> Meaning | None:
+def meaning_of_output(text: str) -> Diagnosis | None:
     """Return what a program's output means, if it shows a known mistake; else None."""
     fault = fault_in(text)
     if fault is None:
@@ -123,21 +121,21 @@ def _fault(kind: str, text: str, frames: list[_Frame]) -> Fault:
 # What only programs show.
 
 
-def _registered_twice(text: str) -> Meaning | None:
+def _registered_twice(text: str) -> Diagnosis | None:
     if not re.search(r"Publisher already registered for (?:provided )?node name", text):
         return None
-    return Meaning(
+    return Diagnosis(
         "run-twice",
         "Two nodes in this program have the same name, so they share one logger.",
         "Is the node created twice? Each node needs its own name.",
     )
 
 
-def _unreadable(fault: Fault) -> Meaning | None:
+def _unreadable(fault: Fault) -> Diagnosis | None:
     if fault.kind not in _UNREADABLE:
         return None
     said = fault.text.split("\n")[0].split(" (")[0]
-    return Meaning(
+    return Diagnosis(
         "syntax-error",
         f"Python cannot read the file: {said or 'something is missing'}.",
         "Check the brackets, quotes and colons on that line and the line above it, and their "
@@ -145,14 +143,14 @@ def _unreadable(fault: Fault) -> Meaning | None:
     )
 
 
-def _ended(fault: Fault) -> Meaning | None:
+def _ended(fault: Fault) -> Diagnosis | None:
     if fault.kind in ("KeyboardInterrupt", "ExternalShutdownException"):
         means = "Ctrl+C ended the program, but main does not handle that exception."
     elif matched(fault, r"rcl_shutdown already called"):
         means = "Ctrl+C has already shut ROS down, and main shuts it down a second time."
     else:
         return None
-    return Meaning(
+    return Diagnosis(
         "ctrl-c-traceback",
         means,
         "The node itself worked; only its exit isn't clean. What does main do when spin is "

@@ -9,8 +9,7 @@ from difflib import SequenceMatcher
 from textwrap import fill
 
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
-from rosbeat.diagnosis.markup import in_html
-from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis, in_html
 from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.diagnosis.situation import (
     BLOCKED,
@@ -112,21 +111,23 @@ class Finding:
     """Hold one cause.
 
     Attributes:
-        diagnosis: The mistake, with evidence and hint.
+        mistake: The mistake's id.
         headline: What is the matter, one sentence without its end.
+        evidence: What shows it.
+        hint: What to try.
         marks: Where in the graph.
     """
 
-    diagnosis: Diagnosis
+    mistake: str
     headline: str
-    marks: tuple[Mark, ...] = ()
+    evidence: str
+    hint: str
+    marks: Sequence[Mark] = ()
 
-
-def finding(
-    mistake: str, headline: str, evidence: str, hint: str, marks: Iterable[Mark] = ()
-) -> Finding:
-    """Put a finding together."""
-    return Finding(Diagnosis(mistake, evidence, hint), headline, tuple(marks))
+    @property
+    def diagnosis(self) -> Diagnosis:
+        """Return the mistake with what is said of it."""
+        return Diagnosis(self.mistake, self.evidence, self.hint)
 
 
 def link(end: Endpoint, *words: str) -> Mark:
@@ -268,7 +269,7 @@ def _type_clash(
     topic: str, publishers: Sequence[Endpoint], listeners: Sequence[Endpoint], marked: Endpoint
 ) -> Finding:
     sent, asked = _two_types(publishers[0].type_name, listeners[0].type_name)
-    return finding(
+    return Finding(
         "type-mismatch",
         f"{topic} has two message types",
         f"{nodes_of(publishers)} {verb(publishers, 'publishes', 'publish')} {sent}, and "
@@ -306,7 +307,7 @@ def _quality(publisher: Endpoint, subscription: Endpoint, marked: Endpoint) -> F
     offers = listing(words(publisher.qos, one) for one in policies)
     asks = listing(words(subscription.qos, one) for one in policies)
     rules = "; ".join(f"{one}: {rule(one)}" for one in policies)
-    return finding(
+    return Finding(
         "qos-mismatch",
         f"{listing(policies)} of {publisher.node} and {subscription.node} are incompatible"
         if len(policies) > 1
@@ -324,7 +325,7 @@ def _unconnected(sides: Sides) -> Iterator[Finding]:
         fitting = [one for one in _same_type(end, sides.publishers) if not _clash(one, end)]
         if not fitting or end.matched != 0:
             continue
-        yield finding(
+        yield Finding(
             UNKNOWN,
             f"{nodes_of(fitting)} and {end.node} are not connected",
             f"{fitting[0].node} offers {qos_words(fitting[0].qos)}, {end.node} requests "
@@ -350,7 +351,7 @@ def _misspelled(sides: Sides, graph: GraphSnapshot) -> Finding | None:
     there = graph.on(name, wanted)
     pair = (sides.topic, name) if wanted == "subscription" else (name, sides.topic)
     how = difference(sides.topic, name)
-    return finding(
+    return Finding(
         "topic-misspelled",
         f"{pair[0]} and {pair[1]} are two different topics",
         f"{nodes_of(here)} {verb(here, *_DOES[_OTHER[wanted]])} {sides.topic}, and "
@@ -378,7 +379,7 @@ def _nobody(sides: Sides, scene: Scene) -> Finding:
         return _unknown(sides.topic, scene)
     if sides.missing == "publisher":
         return _no_publisher(sides, scene)
-    return finding(
+    return Finding(
         "no-subscription",
         f"no node subscribes to {sides.topic}",
         f"{nodes_of(sides.publishers)} {verb(sides.publishers, 'publishes', 'publish')} there, "
@@ -400,23 +401,14 @@ def _no_publisher(sides: Sides, scene: Scene) -> Finding:
         if near
         else "S"
     )
-    return finding(
+    return Finding(
         "no-publisher",
         f"no node publishes on {sides.topic}",
         f"{nodes_of(listeners)} {verb(listeners, 'subscribes', 'subscribe')} to it, but no node "
-        f"publishes{_before(scene)}. Topics with a publisher: {published or 'none'}.",
+        f"publishes. Topics with a publisher: {published or 'none'}.",
         f"{asked}{start} its `create_publisher`.",
         [_near_miss(near, sides.topic)] if near else [],
     )
-
-
-def _before(scene: Scene) -> str:
-    """Say who published there before."""
-    if not scene.former:
-        return ""
-    last = scene.former[-1]
-    who = "another process" if last.node == "?" else last.node
-    return f" now; {who} published until {_at(last.last_ns)}, and is no longer running"
 
 
 def _with_publishers(graph: GraphSnapshot) -> list[str]:
@@ -431,10 +423,10 @@ def _unknown(topic: str, scene: Scene) -> Finding:
         if near
         else f"Start a node that uses it{_how_to_start(scene)}, or ask about a topic that exists."
     )
-    return finding(
+    return Finding(
         "topic-unknown",
         f"no node uses {topic}",
-        f"No node publishes on it{_before(scene)}, and no node subscribes to it. Topics in use: "
+        f"No node publishes on it, and no node subscribes to it. Topics in use: "
         f"{listing(names) or 'none'}.",
         hint,
         [
@@ -549,7 +541,7 @@ def _of(condition: Condition, scene: Scene) -> Finding:
         evidence = cause.evidence.format(node=node, callback=condition.callback, others=others)
         hint = cause.hint.format(name=node.lstrip("/"))
     mark = Mark(NODE, node, words=cause.words)
-    return finding(cause.mistake, cause.headline.format(node=node), evidence, hint, [mark])
+    return Finding(cause.mistake, cause.headline.format(node=node), evidence, hint, [mark])
 
 
 def _twins(ends: tuple[Endpoint, ...], scene: Scene) -> Iterator[Finding]:
@@ -565,7 +557,7 @@ def _twins(ends: tuple[Endpoint, ...], scene: Scene) -> Iterator[Finding]:
             if speak
             else "each of them receives every message"
         )
-        yield finding(
+        yield Finding(
             "run-twice",
             f"{known[node]} nodes are called {node}",
             f"The graph has {known[node]} nodes with that name; {effect}.",
@@ -602,7 +594,7 @@ def _runs(end: Endpoint, scene: Scene) -> bool:
 
 
 def _no_time(sides: Sides, scene: Scene) -> Finding:
-    return finding(
+    return Finding(
         "not-spun",
         "no time has passed since the nodes were added",
         f"Virtual time is at {_at(scene.now_ns)}, and advances only during `ros.run`. No timer "
@@ -626,8 +618,8 @@ def _publisher(end: Endpoint, scene: Scene) -> Iterator[Finding]:
 
 def _never(end: Endpoint, scene: Scene) -> Finding:
     watched = scene.beat(end).seconds
-    why, hint = _timers(end.node, watched, scene) if end.node in scene.own else ("", _LONGER)
-    return finding(
+    why, hint = _timers(end.node, scene) if end.node in scene.own else ("", _LONGER)
+    return Finding(
         "never-published",
         f"{end.node} has not published anything",
         f"{end.node} has a publisher on {end.name}, but published no message in "
@@ -644,7 +636,7 @@ _LONGER = (
 )
 
 
-def _timers(node: str, watched: float, scene: Scene) -> tuple[str, str]:
+def _timers(node: str, scene: Scene) -> tuple[str, str]:
     timers = [one for one in scene.graph.timers if one.node == node]
     if not timers:
         return " The node has no timer that could call `publish`.", _LOOK
@@ -654,16 +646,15 @@ def _timers(node: str, watched: float, scene: Scene) -> tuple[str, str]:
         return f" The node's timer works: {names}.", (
             "Check whether that callback reaches its call of `publish`, and on which publisher."
         )
-    first = min(timers, key=lambda one: one.period_ns)
-    period = first.period_ns / NANOSECONDS
-    said = f" The node's timer has a period of {seconds(period)} and has not fired."
-    if period > watched:
-        return said, f"Wait longer than {seconds(period)}, or choose a shorter period."
-    return said, "Check whether something cancels the timer."
+    period = seconds(min(one.period_ns for one in timers) / NANOSECONDS)
+    return (
+        f" The node's timer has a period of {period} and has not fired.",
+        f"Let more time pass than {period}, and check whether something cancels the timer.",
+    )
 
 
 def _gone_quiet(end: Endpoint, number: int, last_ns: int, quiet: float) -> Finding:
-    return finding(
+    return Finding(
         "gone-quiet",
         f"{end.node} has stopped publishing",
         f"The node published {count(number, 'message')}, the last one at {_at(last_ns)}, and "
@@ -679,7 +670,7 @@ def _subscription(end: Endpoint, scene: Scene) -> Iterator[Finding]:
     if beat.count != 0 or end.matched == 0 or not _runs(end, scene):
         return
     if beat.since > (0 if scene.virtual else _ON_THE_WAY):
-        yield finding(
+        yield Finding(
             UNKNOWN,
             "the cause is unknown",
             f"{count(beat.since, 'message')} were published while {end.node} was subscribed and "
@@ -693,7 +684,7 @@ def _subscription(end: Endpoint, scene: Scene) -> Iterator[Finding]:
 
 def _too_early(end: Endpoint, missed: int) -> Finding:
     said = "The only message was" if missed == 1 else f"All {missed} messages were"
-    return finding(
+    return Finding(
         "first-messages-lost",
         f"the messages were published before {end.node} subscribed",
         f"{said} published before {end.node} subscribed, and none since. By default, a topic "
@@ -729,7 +720,7 @@ def _other_domain(
         if names
     ]
     own = f"; this is domain {here}" if here >= 0 else ""
-    return finding(
+    return Finding(
         "other-domain",
         f"the missing side is in ROS domain {domain.domain_id}",
         f"In ROS domain {domain.domain_id}, {listing(said)}{own}. Nodes in different domains "
@@ -746,7 +737,7 @@ def stale(scene: Scene) -> Iterator[Finding]:
 
 
 def _not_rebuilt(build: StaleBuild) -> Finding:
-    return finding(
+    return Finding(
         "not-rebuilt",
         f"{build.executable} was edited after the last build",
         f"{build.module} names this topic, but differs from the copy that `ros2 run "
@@ -756,7 +747,7 @@ def _not_rebuilt(build: StaleBuild) -> Finding:
 
 
 def _not_built(build: StaleBuild) -> Finding:
-    return finding(
+    return Finding(
         "not-built",
         f"{build.package} is not built yet",
         f"{build.module} names this topic, but the package {build.package} was never built, so "
@@ -924,7 +915,7 @@ def explain(topic: str, scene: Scene) -> Explanation:
         return Explanation(topic, WELL, (), good, rate, (*sentences, *remarks), scene.graph)
     return Explanation(
         topic,
-        found[0].diagnosis.mistake,
+        found[0].mistake,
         tuple(one.diagnosis for one in found),
         tuple(one.headline for one in found),
         rate,
@@ -947,7 +938,7 @@ def _anything_came(sides: Sides, scene: Scene) -> bool:
 
 
 def _new(sides: Sides, scene: Scene) -> Finding:
-    return finding(
+    return Finding(
         UNKNOWN,
         "the cause is unknown",
         "Both sides exist and are compatible, but it could not be observed whether messages "
@@ -960,7 +951,7 @@ def _new(sides: Sides, scene: Scene) -> Finding:
 
 def _ordered(found: list[Finding]) -> list[Finding]:
     rank = {name: number for number, name in enumerate(_ORDER)}
-    return sorted(found, key=lambda one: rank.get(one.diagnosis.mistake, len(rank)))
+    return sorted(found, key=lambda one: rank.get(one.mistake, len(rank)))
 
 
 def _rate(sides: Sides, scene: Scene) -> float:

@@ -66,21 +66,6 @@ class Condition:
 
 
 @dataclass(frozen=True)
-class Former:
-    """Describe a node that has published on the topic and no longer exists.
-
-    Attributes:
-        node: Full name of the node; `?` if it was in another process and is unknown.
-        count: Number of messages that it published.
-        last_ns: Time of its last message, in nanoseconds since the session began.
-    """
-
-    node: str
-    count: int
-    last_ns: int
-
-
-@dataclass(frozen=True)
 class OtherDomain:
     """Describe another ROS domain of this machine that has participants.
 
@@ -126,7 +111,6 @@ class Scene:
         virtual: Whether time is virtual, and so stands still between two runs.
         waiting: Whether callbacks wait for the next run.
         domain_id: The ROS domain, or -1 for a private session.
-        former: Who has published there before.
         other_domains: Other domains in which somebody takes part.
         private_sessions: Whether other processes of this machine have private sessions open.
         stale_builds: What was edited and not built again.
@@ -141,7 +125,6 @@ class Scene:
     virtual: bool = False
     waiting: bool = False
     domain_id: int = -1
-    former: tuple[Former, ...] = ()
     other_domains: tuple[OtherDomain, ...] = ()
     private_sessions: bool = False
     stale_builds: tuple[StaleBuild, ...] = ()

@@ -360,34 +360,22 @@ def explain(seen: Situation) -> str | None:
         None if nothing is known for sure, or if the output says the same itself.
     """
     found = recognise(seen)
-    if found is None or _says_it_itself(seen, found):
+    if found is None or re.search(_SAYS_IT_ITSELF.get(found.mistake, r"\Z."), seen.text):
         return None
     return " ".join(text for text in (found.evidence, found.hint) if text)
 
 
-#: Mistakes with a word of the command itself: the course's `ros2` often proposes the right one.
-_ABOUT_A_WORD = (
-    "executable-misspelled",
-    "package-misspelled",
-    "word-misspelled",
-    "option-misspelled",
-    "build-type",
-)
-_ASKED = re.compile(r"Did you mean:? '([^']+)'")
-_PROPOSAL = re.compile(r"Did you mean `?([\w.-]+)`?\?")
 #: What the course's `ros2` prints about a package that was to be made in another one.
 _INSIDE = "is a package itself (it holds a package.xml)"
-
-
-def _says_it_itself(seen: Situation, found: Diagnosis) -> bool:
-    """Return whether the program itself has said already what we would say."""
-    if _INSIDE in seen.text:
-        return found.mistake == "wrong-folder"
-    if found.mistake not in _ABOUT_A_WORD:
-        return False
-    if not (match := _PROPOSAL.match(found.hint)):
-        return "' has: " in seen.text and found.hint.startswith("It has: ")
-    return match[1] in _ASKED.findall(seen.text)
+#: What it prints where it says the same as we would, by mistake.
+_SAYS_IT_ITSELF = {
+    **dict.fromkeys(
+        ("executable-misspelled", "package-misspelled", "word-misspelled", "option-misspelled"),
+        r"Did you mean|' has: ",
+    ),
+    "build-type": r"Did you mean",
+    "wrong-folder": re.escape(_INSIDE),
+}
 
 
 # Folders: `cd` and `mkdir`, and a terminal whose folder has gone.
@@ -464,41 +452,17 @@ def _cd_with_a_blank_too_many(_: Situation, call: Call, __: Found) -> Diagnosis:
 
 def _cd_failed(seen: Situation, call: Call, found: Found) -> Diagnosis:
     path = found[1].strip()
-    return _in_the_workspace(seen, path) or _at_the_top(seen, path) or _not_here(call.place, path)
-
-
-def _in_the_workspace(seen: Situation, path: str) -> Diagnosis | None:
-    """Recognise a folder of the workspace, which lies elsewhere than it was looked for."""
-    parts = PurePosixPath(path).parts
-    if seen.workspace.name not in parts or not seen.workspace.is_dir():
-        return None
-    rest = str(PurePosixPath(*parts[parts.index(seen.workspace.name) + 1 :]))
-    here = rest if (seen.workspace / rest).is_dir() else ""
-    meant = None if here else _near(seen.workspace, rest, folders=True)
-    if not meant:
-        return _absent(f"{path}.", f"Your workspace is here:  {_way_to(here)}")
-    return _absent(f"{rest} in your workspace.", f"Did you mean  {_way_to(meant)}")
-
-
-def _at_the_top(seen: Situation, path: str) -> Diagnosis | None:
-    if not _nothing_at_the_top(path):
-        return None
-    rest = path.strip("/")
-    there = (seen.home / rest).is_dir()
-    hint = f": write  cd ~/{shlex.quote(rest)}" if there else ", and `ls ~` lists its content."
-    return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your home folder is `~`{hint}")
-
-
-def _not_here(place: Path, path: str) -> Diagnosis:
-    meant = _near(place, path, folders=True)
+    if _nothing_at_the_top(path):
+        hint = f"write  cd ~/{shlex.quote(path.strip('/'))}"
+        return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your home folder is `~`: {hint}")
     where = "" if path.startswith("/") else " in the current folder"
-    if meant:
-        return _absent(f"{path}{where}.", f"Did you mean {shlex.quote(meant)}?")
-    return _absent(f"{path}{where}.", "`pwd` shows the current folder, and `ls` lists its content.")
-
-
-def _absent(what: str, hint: str) -> Diagnosis:
-    return Diagnosis("folder-not-found", f"There is no folder {what}", hint)
+    meant = _near(call.place, path, folders=True)
+    hint = "`pwd` shows the current folder, and `ls` lists its content."
+    if seen.workspace.name in PurePosixPath(path).parts:
+        hint = f"Your workspace is here:  {_way_to()}"
+    elif meant:
+        hint = f"Did you mean {shlex.quote(meant)}?"
+    return Diagnosis("folder-not-found", f"There is no folder {path}{where}.", hint)
 
 
 _CD_RULES = (
@@ -520,12 +484,9 @@ _MKDIR_RULES = (
     Row("parents-missing", "mkdir", rf"{_MKDIR}(?:[^']*/)?([^'/]+)/*': No such file",
         "The parent folder of {1} does not exist.",
         "With -p, `mkdir` also creates missing parent folders."),
-    Row("option-misspelled", "mkdir", r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'P'",
-        "`mkdir` has no option -P, so it created nothing.",
-        "The option is a lower-case letter: -p"),
     Row("option-misspelled", "mkdir", r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'([^']+)'",
         "`mkdir` has no option -{1}, so it created nothing.",
-        "`mkdir --help` lists its options."),
+        "To create missing parent folders, the option is a lower-case letter: -p"),
     Row("word-missing", "mkdir", r"mkdir: missing operand",
         "`mkdir` was called without the name of a folder.",
         "Write the folder's name or path after `mkdir`, separated by a space."),
@@ -540,7 +501,7 @@ _KNOWN = (
 )
 _NOT_HERE = (
     "tree|screen|tmux|git|sudo|apt|apt-get|gnome-terminal|terminator|rviz2|rqt|rqt_graph|rosdep|"
-    "htop|wget|curl|pip|python|conda"
+    "htop|wget|curl|pip|python|conda|nano|gedit|vim|vi|code|emacs"
 )
 #: Short words are easily alike: `screen` is not `tree`.
 _ALIKE = 0.75
@@ -599,9 +560,6 @@ _COMMAND_RULES = (
     Row("prompt-typed", "{1}", _not_found("[$#%]"),
         "`{1}` is the terminal's prompt, not a command.",
         "Type only the text after the prompt."),
-    Row("not-installed", "{1}", _not_found("nano|gedit|vim|vi|code|emacs"),
-        "The editor {1} is not installed here.",
-        "Double-click the file in JupyterLab's file browser, or write it with a `%%save` cell."),
     Row("environment-inactive", "{1}", _not_found("ros2|colcon"),
         "This terminal cannot find {1}: the course's environment is not active in it.",
         "Open a terminal from the course, or run `./environment/course shell` first."),
@@ -611,7 +569,7 @@ _COMMAND_RULES = (
         "it belongs to ROS 1, and ROS 2 does not have it."),
     Row("not-installed", "{1}", _not_found(_NOT_HERE),
         "The program `{1}` is not installed here.",
-        "The course does not need it."),
+        "The course does not need it. JupyterLab's file browser opens files in an editor."),
     Rule("{1}", _not_found(), _misspelt),
 )  # fmt: skip
 _FILE_RULES: Rules = (
@@ -635,16 +593,10 @@ _FILE_RULES: Rules = (
         "{1} does not exist yet: `colcon build` creates it.",
         "Build in the workspace first, then source.",
         lambda seen, *_: not (seen.workspace / "install" / "setup.bash").is_file()),
-    *(
-        Row("wrong-folder", _SOURCE, rf"{_BASH}({start}{_SETUP}): {_NO_FILE}",
-            f"{{1}} {where}.",
-            f"That file is in your workspace: go there first, with  {_way_to()}",
-            lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file())
-        for start, where in (
-            ("(?=/)", "does not exist"),
-            ("", "is not in the current folder"),
-        )
-    ),
+    Row("wrong-folder", _SOURCE, rf"{_BASH}({_SETUP}): {_NO_FILE}",
+        "{1} does not exist in the current folder.",
+        f"That file is in your workspace: go there first, with  {_way_to()}",
+        lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file()),
     Rule(r"\S*{2}", rf"{_BASH}((?:\S*/)?([^\s/]+\.py)): Permission denied", _not_executable),
 )  # fmt: skip
 
@@ -735,26 +687,6 @@ def _options_missing(_: Situation, call: Call, found: Found) -> Diagnosis | None
     )
 
 
-def _no_build_type(_: Situation, call: Call, __: Found) -> bool:
-    return not any(word.startswith("--build-type") for word in call.words)
-
-
-def _made_for_cpp(seen: Situation, call: Call, found: Found) -> Diagnosis | None:
-    """Recognise that another `ros2` has made a package for C++ (25)."""
-    made = (one for one in seen.packages if one.name in call.words[3:] and _is_for_cpp(one))
-    package = next(made, None)
-    if seen.code or not package or not _no_build_type(seen, call, found):
-        return None
-    name = package.name
-    return Diagnosis(
-        "build-type",
-        f"{name} is a C++ package: it has a CMakeLists.txt and no setup.py, because "
-        "`--build-type ament_python` was left out.",
-        f"Rename the folder {name} or move it away, then create the package again with that "
-        "option.",
-    )
-
-
 def _made_elsewhere(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
     """Recognise a package that was made outside of `src` (26)."""
     place, source = call.place.resolve(), (seen.workspace / "src").resolve()
@@ -779,12 +711,7 @@ _CREATE_RULES = (
     Row("build-type", _CREATE, r"is left out here",
         "Without `--build-type ament_python`, `ros2 pkg create` creates a C++ package, but your "
         "nodes are in Python.",
-        "Add that option; the rest of the command stays the same.",
-        _no_build_type),
-    Rule(_CREATE, "", _made_for_cpp),
-    Row("build-type", _CREATE, r"is left out here",
-        "The command asks for a build type for C++, but your nodes are in Python.",
-        "Write ament_python after --build-type; the rest of the command stays the same."),
+        "Write that option; the rest of the command stays the same."),
     Row("package-name", _CREATE, r"cannot be the name of a package(?! to depend on)",
         "A Python package is imported by its name, so the name follows Python's rules:",
         "lower-case letters, digits and `_`, beginning with a letter."),
@@ -1131,24 +1058,10 @@ _RUN_RULES = (
 _PLAIN = ("name-error", "wrong-attribute", "no-value-yet", "not-importable", "text-and-number")
 
 
-def _ended_by(kind: str, where: str = "") -> When:
-    """Return a condition: a node failed with this exception, below a certain function."""
-
-    def when(seen: Situation, _: Call, __: Found) -> bool:
-        last = re.match(rf"(?:[\w.]*\.)?(?:{kind})(?::|$)", seen.error)
-        return bool(seen.code and seen.about_ros and last and where in seen.traceback)
-
-    return when
-
-
 def _in_a_node(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
-    """Recognise an error that rclpy raises for a mistake in a node, or Python for a name."""
-    meaning = meaning_of_output(seen.traceback)
-    if meaning is None or meaning.mistake == "ctrl-c-traceback":  # rows above tell of that
-        return None
-    if not seen.about_ros and meaning.mistake not in _PLAIN:
-        return None
-    return Diagnosis(meaning.mistake, meaning.beside_error, meaning.to_try)
+    """Recognise how a node ended: by Ctrl+C, or an error of rclpy's or Python's for a mistake."""
+    found = meaning_of_output(seen.traceback)
+    return found if found and (seen.about_ros or found.mistake in _PLAIN) else None
 
 
 _LOADING_RULES = (
@@ -1170,30 +1083,6 @@ _LOADING_RULES = (
     PackageRule(_RUN, (_flaw_of_the_executable,), when=_is_about_loading),
     PackageRule(_RUN, (_broken_module,), when=lambda seen, _: seen.error.startswith(_UNREADABLE)),
 )  # fmt: skip
-_ENDING_RULES = (
-    Row("ctrl-c-traceback", PYTHON, "",
-        "Ctrl+C has already shut ROS down when `main` calls `rclpy.shutdown()`, and shutting ROS "
-        "down twice is an error.",
-        "The node itself worked; only its exit isn't clean. Write `rclpy.try_shutdown()` in "
-        "`main` instead.",
-        lambda seen, *_: seen.code and "rcl_shutdown already called" in seen.error),
-    Row("ctrl-c-traceback", PYTHON, "",
-        "Ctrl+C came while the node was still starting, before `main` could catch it.",
-        "Nothing is broken: start the node again, and wait for its first line of output.",
-        _ended_by("ExternalShutdownException|KeyboardInterrupt", "in __init__")),
-    *(
-        Row("ctrl-c-traceback", PYTHON, "",
-            f"{cause}, but `main` does not catch the exception, so Python shows a traceback.",
-            "Nothing is broken. Put `rclpy.spin(node)` in a `try:` block, and below it  except "
-            "(KeyboardInterrupt, ExternalShutdownException): pass",
-            _ended_by(kind))
-        for kind, cause in (
-            ("ExternalShutdownException", "ROS was shut down while the node was spinning"),
-            ("KeyboardInterrupt", "Ctrl+C ended the node in the middle of its work"),
-        )
-    ),
-)  # fmt: skip
-
 _RULES: Rules = (
     Rule(".*", "", _folder_gone),
     Row("space-missing", "cd{1}", rf"{_BASH}cd([.~/][^:]*): ",
@@ -1213,7 +1102,6 @@ _RULES: Rules = (
     *_BUILD_RULES,
     *_RUN_RULES,
     *_LOADING_RULES,
-    *_ENDING_RULES,
     # What runs is older than what is written.
     PackageRule(_RUN, (_refused_since,), when=_runs_a_build),
     PackageRule(_RUN, (_edited,), when=_runs_a_build),

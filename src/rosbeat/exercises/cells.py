@@ -10,11 +10,10 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from textwrap import dedent, shorten
-from types import FunctionType
+from textwrap import shorten
 from typing import Any, TypeAlias
 
 from rosbeat.errors import ExerciseError, RosbeatError
@@ -30,10 +29,6 @@ NOTHING: Answer = object()
 #: Characters of what a cell raised that are shown.
 _LONGEST = 200
 _HELD_AS = "_rosbeat_cells"
-#: What a line without indentation defines, also in a cell that cannot be read as Python.
-_DEFINED = re.compile(
-    r"^(?:async\s+def|def|class)\s+(\w+)|^(\w+)\s*(?::[^=\n]+)?=(?!=)", re.MULTILINE
-)
 _SAVE = re.compile(r"%%save\s+(\S+)")
 #: A prediction that nobody has made yet.
 _ASKS = re.compile(r"""(?<![\w.])predict\(\s*["']_+["']""")
@@ -45,11 +40,9 @@ class Run:
     """Hold how one run of a cell ended.
 
     Attributes:
-        number: Counts the runs of this kernel.
         cell: The cell's id; empty if the front end sent none.
         exercise: Id of the exercise whose cell it is, or an empty text.
-        names: What the cell defines, as it is written.
-        bound: Those of them that this run really defined.
+        bound: The names that it defined.
         failure: What it raised and in which line, such as `line 7: SyntaxError: invalid syntax`;
             empty if it ran to its end.
         blank: Whether it stopped at a blank, `____`.
@@ -57,10 +50,8 @@ class Run:
         stamp: When that file was changed last, in nanoseconds; 0 if it is not there.
     """
 
-    number: int
     cell: str
     exercise: str = ""
-    names: tuple[str, ...] = ()
     bound: tuple[str, ...] = ()
     failure: str = ""
     blank: bool = False
@@ -77,9 +68,8 @@ class Cells:
 
     def __init__(self, shell: Shell) -> None:
         self._shell = shell
-        self._count = 0
-        # Of the cell that runs, and of those that it runs: the text, and what its names were.
-        self._begun: list[tuple[str, dict[str, object]]] = []
+        #: The texts of the cell that runs, and of those that it runs.
+        self._begun: list[str] = []
         self._last: dict[str, Run] = {}
         self._binder: dict[str, Run] = {}
         self._handed: dict[str, ast.expr] = {}
@@ -90,19 +80,18 @@ class Cells:
         self.widgets: dict[str, list[Any]] = {}
 
     def begin(self, info: Info) -> None:
-        """Note what there is before a cell runs (IPython's event `pre_run_cell`)."""
-        raw, space = str(info.raw_cell), self._shell.user_ns
-        self._begun.append((raw, {name: _mark(space.get(name)) for name in _names(raw)}))
+        """Note that a cell runs (IPython's event `pre_run_cell`)."""
+        self._begun.append(str(info.raw_cell))
         if len(self._begun) == 1 and self.for_a_browser:
             self._close(str(self._sent()["cellId"]))
-            if _ASKS.search(raw):
+            if _ASKS.search(self._begun[0]):
                 self.withheld = Withheld(self._shell)
 
     def end(self, result: Info) -> None:
         """Note how a cell ended (IPython's event `post_run_cell`)."""
         if not self._begun:  # it has imported rosbeat, and nobody has seen it begin
             return
-        _, before = self._begun.pop()
+        self._begun.pop()
         if self.withheld is not None and not self._begun:
             self.withheld.end_of_cell()
             self.withheld = None
@@ -110,12 +99,12 @@ class Cells:
         for gone in meta.get("deletedCells") or ():
             self._last.pop(str(gone), None)
             self._close(str(gone))
-        self._count += 1
         marks = meta.get("rosbeat") or {}
         cell, exercise = str(meta.get("cellId") or ""), str(marks.get("exercise") or "")
-        run = self._ended(result, Run(self._count, cell, exercise), before)
+        run = self._ended(result, Run(cell, exercise))
         self._binder.update(dict.fromkeys(run.bound, run))
         if run.exercise:
+            self._last.pop(run.cell, None)  # the newest stands last
             self._last[run.cell] = run
         self.worked_on = run.exercise or self.worked_on
 
@@ -131,7 +120,7 @@ class Cells:
             exercise: The exercise's id.
         """
         self.worked_on = exercise
-        expression = _answer_in(self._begun[0][0], exercise) if self._begun else None
+        expression = _answer_in(self._begun[0], exercise) if self._begun else None
         if expression is not None:
             self._handed[exercise] = expression
 
@@ -160,13 +149,14 @@ class Cells:
             return eval(
                 compile(ast.Expression(expression), "<answer>", "eval"), self._shell.user_ns
             )
-        runs = [one for one in self._last.values() if one.exercise == exercise and one.bound]
-        if not runs:
-            return NOTHING
-        return self._shell.user_ns.get(max(runs, key=lambda one: one.number).bound[-1], NOTHING)
+        bound = [name for run in self._runs(exercise) for name in run.bound]
+        return self._shell.user_ns.get(bound[-1], NOTHING) if bound else NOTHING
 
     def refuse_stale(self, exercise: str) -> bool:
         """Refuse to judge what the last run of an exercise's cell did not define.
+
+        An answer is stale if a cell of an exercise has defined it, and has run again since without
+        defining it; and if the cell was to save a file, and has not saved it.
 
         Args:
             exercise: The exercise's id.
@@ -177,69 +167,58 @@ class Cells:
         Raises:
             ExerciseError: If the cell failed when it ran last, or defines another name by now.
         """
-        runs = sorted((one for one in self._last.values() if one.exercise == exercise),
-                      key=lambda one: one.number)  # fmt: skip
+        unsaved = [
+            one for one in self._runs(exercise)
+            # Later, somebody may have changed the file by hand.
+            if one.file is not None and _stamp(one.file) == one.stamp
+        ]  # fmt: skip
         expression = self._handed.get(exercise)
-        name = expression.id if isinstance(expression, ast.Name) else ""
-        broken = next((one for one in reversed(runs) if self._is_broken(one, name)), None)
-        if broken is not None and not broken.blank:
-            raise _did_not_run(broken)
-        if broken is None and name:
-            self._refuse_other_name(name, runs)
-        return broken is not None
+        names = () if expression is None else ast.walk(expression)
+        stale = {
+            one.id: now
+            for one in names
+            if isinstance(one, ast.Name)
+            if (now := self._rerun_without(one.id)) is not None
+        }
+        for run in (*unsaved, *stale.values()):
+            if run.blank:
+                return True
+            if run.failure:
+                raise _did_not_run(run)
+        for name, run in stale.items():
+            raise _other_name(name, run)
+        return False
+
+    def _runs(self, exercise: str) -> list[Run]:
+        return [one for one in self._last.values() if one.exercise == exercise]
+
+    def _rerun_without(self, name: str) -> Run | None:
+        """Return the last run of the cell that has defined a name, if it did not define it."""
+        binder = self._binder.get(name)
+        now = self._last.get(binder.cell) if binder is not None else None
+        return now if now is not binder else None
 
     def _close(self, cell: str) -> None:
         for widget in self.widgets.pop(cell, ()):
             widget.close()
 
-    def _ended(self, result: Info, run: Run, before: Mapping[str, object]) -> Run:
+    def _ended(self, result: Info, run: Run) -> Run:
         raw, space = str(result.info.raw_cell), self._shell.user_ns
         error = result.error_before_exec or result.error_in_exec
-        names = tuple(before)
-        bound = tuple(
-            one
-            for one in names
-            if one in space and (error is None or not _is_same(_mark(space[one]), before[one]))
-        )
-        run = replace(run, names=names, bound=bound)
+        line = _line(error, space) if error is not None else 0
+        run = replace(run, bound=_bound(self._shell.transform_cell(raw), error, line))
         file = _file_of(raw)
         blank = isinstance(error, NameError) and getattr(error, "name", "") == "____"
         blank = blank or (file is not None and bool(_BLANK.search(raw)))
         if error is None and not blank:
             return run
-        failure = _failure(error, space) if error is not None else ""
+        failure = _failure(error, line) if error is not None else ""
         run = replace(run, failure=failure, blank=blank)
         if file is None:
             return run
         # A file that was saved can be judged, whatever its text did when it ran on the page.
         saved = not blank and _holds(file, raw.partition("\n")[2])
         return replace(run, failure="") if saved else replace(run, file=file, stamp=_stamp(file))
-
-    def _is_broken(self, run: Run, name: str) -> bool:
-        """Return whether a run left something behind that a check would take for its result."""
-        if run.file is not None:
-            return _stamp(run.file) == run.stamp  # later, somebody may have changed it by hand
-        if not run.failure or not run.names:
-            return False
-        since = {one for one, maker in self._binder.items() if maker.number >= run.number}
-        return name not in since and (name in run.names or not since.issuperset(run.names))
-
-    def _refuse_other_name(self, name: str, runs: list[Run]) -> None:
-        binder = self._binder.get(name)
-        now = self._last.get(binder.cell) if binder and binder.cell else None
-        if binder is None or now not in runs or now is None or name in now.bound:
-            return
-        kind = _kind(self._shell.user_ns.get(name))
-        fresh = (one for one in now.bound if one not in binder.bound)
-        new = [one for one in fresh if _kind(self._shell.user_ns.get(one)) == kind]
-        if new:
-            raise ExerciseError(
-                f"You checked `{name}`, which an earlier run of the cell defined; the last run "
-                f"of the cell defined `{new[-1]}`.",
-                f"`{name}` is still what it was then, so there is no verdict on what the cell has "
-                "now.",
-                f"Write `{name}` in the cell and run it, then run this check again.",
-            )
 
     def _metadata(self, info: Info) -> Mapping[str, Any]:
         """Return what the front end sent about a cell; empty if it did not send this cell."""
@@ -307,37 +286,36 @@ def _arguments(call: ast.Call) -> list[ast.expr]:
     return [*call.args, *rest] if named else []
 
 
-def _names(source: str) -> Iterator[str]:
-    yield from dict.fromkeys(one[1] or one[2] for one in _DEFINED.finditer(dedent(source)))
+def _bound(source: str, error: BaseException | None, line: int) -> tuple[str, ...]:
+    """Return the names that the statements of a cell have defined.
 
-
-def _kind(value: object) -> str:
-    # Not by `isinstance`, which asks a strange value itself.
-    if issubclass(type(value), type):
-        return "class"
-    return "function" if type(value) is FunctionType else "value"
-
-
-def _mark(value: object) -> object:
-    """Return what tells one value of a name from the next.
-
-    A class or a function is held, so that no other gets its id; to hold a session would keep it
-    open.
+    Args:
+        source: The cell as Python.
+        error: What the cell raised; None if it ran to its end.
+        line: The line at which it did; 0 if it did not begin to run.
     """
-    return id(value) if _kind(value) == "value" else value
+    try:
+        statements = ast.parse(source).body
+    except (SyntaxError, ValueError, RecursionError):
+        return ()
+    names: list[str] = []
+    for one in statements:
+        if error is not None and (one.end_lineno or 0) >= line:
+            break
+        if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            names.append(one.name)
+        elif isinstance(one, ast.Assign | ast.AnnAssign):
+            targets = one.targets if isinstance(one, ast.Assign) else [one.target]
+            names += [target.id for target in targets if isinstance(target, ast.Name)]
+    return tuple(names)
 
 
-def _is_same(one: object, other: object) -> bool:
-    """Return whether two marks are of the same value."""
-    return one is other or (type(one) is int and type(other) is int and one == other)
-
-
-def _failure(error: BaseException, space: Mapping[str, Any]) -> str:
+def _failure(error: BaseException, line: int) -> str:
     """Return what a cell raised, and in which of its lines."""
     if isinstance(error, RosbeatError):  # what it says is a sentence of its own
         return error.what.rstrip(".")
     text = str(error).strip().split("\n")[0]
-    line = getattr(error, "lineno", None) or _line(error, space)
+    line = getattr(error, "lineno", None) or line
     said = re.fullmatch(r"(.*) \([^()]*, line (\d+)\)", text)
     if said:  # a SyntaxError, and ours for the text of a file, which has nothing but its text
         text, line = said[1], int(said[2])
@@ -385,16 +363,21 @@ def _stamp(path: Path) -> int:
 
 
 def _did_not_run(run: Run) -> ExerciseError:
+    what, rest = "did not run", "What an earlier run defined is still there"
     if run.file is not None:
-        return ExerciseError(
-            f"The cell above did not save {run.file.name} ({run.failure}).",
-            "The file is still the one from before, so there is no verdict on what the cell has "
-            "now.",
-            "Correct the cell and run it, then run this check again.",
-        )
+        what, rest = f"did not save {run.file.name}", "The file is still the one from before"
     return ExerciseError(
-        f"The cell above did not run ({run.failure}).",
-        "What an earlier run defined is still there, so there is no verdict on what the cell has "
-        "now.",
+        f"The cell above {what} ({run.failure}).",
+        f"{rest}, so there is no verdict on what the cell has now.",
         "Correct the cell and run it, then run this check again.",
+    )
+
+
+def _other_name(name: str, run: Run) -> ExerciseError:
+    defined = f"defined `{run.bound[-1]}`" if run.bound else "did not define it"
+    return ExerciseError(
+        f"You checked `{name}`, which an earlier run of the cell defined; the last run of the cell "
+        f"{defined}.",
+        f"`{name}` is still what it was then, so there is no verdict on what the cell has now.",
+        f"Write `{name}` in the cell and run it, then run this check again.",
     )

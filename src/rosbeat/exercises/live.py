@@ -12,7 +12,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from functools import partial
 from io import StringIO
 from pathlib import Path
-from signal import SIGINT, getsignal, signal
+from signal import SIGINT, default_int_handler, signal
 from threading import current_thread, main_thread
 from typing import Any
 
@@ -98,23 +98,11 @@ class ExerciseWidget(AnyWidget):
 def _until_interrupt(action: Callable[[], str]) -> str:
     """Return what an action says; Interrupt ends it as it ends a cell.
 
-    Between cells, a kernel passes Interrupt over. Here the first one counts; another one while it
-    is handled would leave the browser without an answer.
+    Between cells, a kernel passes Interrupt over.
     """
-    can_stop = [True]
-
-    def stop(*_: object) -> None:
-        if can_stop:
-            can_stop.clear()
-            raise KeyboardInterrupt
-
-    before = getsignal(SIGINT)
+    before = signal(SIGINT, default_int_handler)
     try:
-        signal(SIGINT, stop)
-        try:
-            return action()
-        finally:
-            can_stop.clear()
+        return action()
     except KeyboardInterrupt:
         return framed(OPEN, words("You stopped it.", "strong"))
     finally:

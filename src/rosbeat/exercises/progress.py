@@ -9,7 +9,6 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from pathlib import Path
-from types import MappingProxyType
 from typing import Annotated, Any, Final, Literal
 
 from msgspec import Meta
@@ -19,7 +18,7 @@ from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page
-from rosbeat.exercises.registry import EXERCISES, PAGES, Page, this_page
+from rosbeat.exercises.registry import PAGES, Page, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.place import is_a_solution, page_file, steady_home, workspace_parent
@@ -93,29 +92,6 @@ _IGNORED = {".gitignore": b"*\n", "COLCON_IGNORE": b""}
 Standings = Mapping[str, Standing]
 
 
-#: The exercises of version 1 that are several steps now. The last step asks for what the exercise
-#: asked for, under another id, so a pass is a pass of each step.
-_STEPS = {"04c": ("04c", "04d", "04e"), "12c": ("12c", "12d", "12e")}
-
-
-def _renewed(before: Standings) -> dict[str, Standing]:
-    """Return the standings of a file of version 1, by the ids of today.
-
-    The hint that a check gave goes: it may be about what an exercise asks no more.
-    """
-    after: dict[str, Standing] = {}
-    for name, one in before.items():
-        known = replace(one, lead="")
-        steps = _STEPS.get(name, ())
-        if not steps:
-            after[name] = known
-        elif not one.passed:
-            after[steps[-1]] = known
-        else:
-            after |= {step: replace(known, points=EXERCISES[step].points) for step in steps}
-    return after
-
-
 @dataclass(frozen=True)
 class _Content:
     """Hold what is in the file. What a later version adds to a standing is passed over."""
@@ -127,27 +103,27 @@ class _Content:
 class ProgressFile:
     """Remember in a file how far somebody is with each exercise.
 
+    What cannot be written, and what is not to be written, only the kernel remembers.
+
     Args:
         folder: The hidden folder that holds the file; made when something is written.
         tell: Gets one line if something is wrong with the file.
+        counts: Whether checks here are those of a learner's own page, and are written.
     """
 
-    #: Whether checks here are those of a learner's own page.
-    counts = True
-
-    def __init__(self, folder: Path, tell: Callable[[str], None] = print) -> None:
-        self.path = folder / NAME
+    def __init__(
+        self, folder: Path, tell: Callable[[str], None] = print, counts: bool = True
+    ) -> None:
+        self.path, self.counts = folder / NAME, counts
         self._tell = tell
-        self._unsaved: Standings | None = None
+        self._unsaved: dict[str, Standing] = {}
 
     def standings(self) -> Standings:
         """Return every standing by exercise; a file that cannot be read counts as empty."""
-        if self._unsaved is not None:
-            return self._unsaved
         try:
-            return self._read()
+            return {**self._read(), **self._unsaved}
         except (OSError, RecordError):
-            return MappingProxyType({})
+            return self._unsaved
 
     def change(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
         """Change the standing of one exercise, and write it down.
@@ -160,31 +136,33 @@ class ProgressFile:
             The new standing. It is right even if it could not be written.
         """
         try:
-            self._prepare()
-            with only_writer(self.path.parent):
+            if self.counts:
                 return self._written(exercise, edit)
         except OSError as error:
-            return self._remembered(exercise, edit, error)
-
-    def _prepare(self) -> None:
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        for name, content in _IGNORED.items():
-            if not (self.path.parent / name).exists():
-                write(self.path.parent / name, content)
+            if not self._unsaved:
+                self._tell(
+                    f"# Your progress cannot be saved ({error.strerror or error}). Everything else "
+                    "works; this page remembers it until it is closed."
+                )
+        self._unsaved[exercise] = edit(self.standings().get(exercise, Standing()))
+        return self._unsaved[exercise]
 
     def _written(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
-        before = {**self._sound_content(), **(self._unsaved or {})}
-        after = edit(before.get(exercise, Standing()))
-        standings = dict(sorted({**before, exercise: after}.items()))
-        write(self.path, f"{to_json(_Content(_FILE_VERSION, standings), indent=1)}\n".encode())
-        self._unsaved = None
+        folder = self.path.parent
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in _IGNORED.items():
+            if not (folder / name).exists():
+                write(folder / name, content)
+        with only_writer(folder):
+            before = {**self._sound_content(), **self._unsaved}
+            after = edit(before.get(exercise, Standing()))
+            standings = dict(sorted({**before, exercise: after}.items()))
+            write(self.path, f"{to_json(_Content(_FILE_VERSION, standings), indent=1)}\n".encode())
+        self._unsaved = {}
         return after
 
     def _read(self) -> Standings:
-        content = from_json(_Content, self.path.read_bytes(), "progress")
-        return (
-            content.exercises if content.version == _FILE_VERSION else _renewed(content.exercises)
-        )
+        return from_json(_Content, self.path.read_bytes(), "progress").exercises
 
     def _sound_content(self) -> Standings:
         """Return what the file holds; if that is damaged, it is put aside."""
@@ -193,45 +171,13 @@ class ProgressFile:
         except FileNotFoundError:
             return {}
         except RecordError:
-            aside = _free_name(self.path)
-            self.path.rename(aside)
+            aside = self.path.with_name("progress-unreadable.json")
+            self.path.replace(aside)
             self._tell(
                 f"# Your progress could not be read. The file is kept as {FOLDER}/{aside.name}, "
                 "and a new one begins."
             )
             return {}
-
-    def _remembered(
-        self, exercise: str, edit: Callable[[Standing], Standing], error: OSError
-    ) -> Standing:
-        if self._unsaved is None:
-            self._tell(
-                f"# Your progress cannot be saved ({error.strerror or error}). Everything else "
-                "works; this page remembers it until it is closed."
-            )
-        before = self.standings()
-        after = edit(before.get(exercise, Standing()))
-        self._unsaved = {**before, exercise: after}
-        return after
-
-
-class _ReadOnlyFile(ProgressFile):
-    """Leave the file as it is: how far a page that does not count is, only its kernel remembers."""
-
-    counts = False
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder)
-        self._here: dict[str, Standing] = {}
-
-    def standings(self) -> Standings:
-        """Return every standing by exercise, as this kernel knows it."""
-        return {**super().standings(), **self._here}
-
-    def change(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
-        """Change the standing of one exercise for as long as the kernel lives."""
-        self._here[exercise] = edit(self.standings().get(exercise, Standing()))
-        return self._here[exercise]
 
 
 def progress_file() -> ProgressFile:
@@ -257,14 +203,7 @@ def _is_a_solution() -> bool:
 @cache
 def _at(folder: Path, counts: bool) -> ProgressFile:
     # One for each folder, so that what is wrong with it is said once in a kernel.
-    return ProgressFile(folder) if counts else _ReadOnlyFile(folder)
-
-
-def _free_name(path: Path) -> Path:
-    number = 1
-    while (aside := path.with_name(f"progress-unreadable-{number}.json")).exists():
-        number += 1
-    return aside
+    return ProgressFile(folder, counts=counts)
 
 
 # `progress`: how far somebody is with the course, as a list for the end of a page.

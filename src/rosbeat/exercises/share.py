@@ -15,12 +15,12 @@ import os
 import re
 import stat
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from queue import Full, Queue
+from queue import SimpleQueue
 from secrets import token_hex
 from textwrap import fill
 from threading import Thread
@@ -37,8 +37,8 @@ from rosbeat.workspace.saving import write
 SETTING = "ROSBEAT_CLASS"
 #: Seconds that a line is kept.
 DAY = 24 * 60 * 60
-#: Bytes of a learner's file, letters of a name, and lines that wait for a slow folder.
-LARGEST, LONGEST_NAME, _MOST_WAITING = 64 * 1024, 40, 100
+#: Bytes of a learner's file, letters of a name, and lines that are kept.
+LARGEST, LONGEST_NAME, _MOST_LINES = 64 * 1024, 40, 200
 #: How the files in the folder of a class are named.
 FILE_NAME = re.compile(r"[0-9a-f]{32}\.jsonl")
 _CONSENT = "share.json"
@@ -94,9 +94,7 @@ def share(outcome: Outcome, now: Callable[[], float] = time.time) -> None:
         return
     agreed = consent()
     if agreed is not None:
-        # Where no thread can be started, or too much waits, the check counts all the same.
-        with suppress(RuntimeError, Full):
-            _writer().put_nowait(lambda: append(agreed, outcome, now()))
+        _writer().put(lambda: append(agreed, outcome, now()))
 
 
 def append(agreed: Consent, outcome: Outcome, now: float) -> None:
@@ -117,50 +115,20 @@ def append(agreed: Consent, outcome: Outcome, now: float) -> None:
         "time": int(now),
         **({"name": agreed.name} if agreed.name else {}),
     }
+    present = agreed.file.read_bytes() if agreed.file.exists() else b""
+    kept = [one for one in present.splitlines(keepends=True) if _time_of(one) > now - DAY]
     # As it is: escaped, a name in another script would be longer than a reader takes.
     line = f"{json.dumps(said, ensure_ascii=False)}\n".encode()
-    with _own_file(agreed.file) as number:
-        present = os.pread(number, 2 * LARGEST, 0)
-        kept = _kept(present, now)
-        if kept == present:
-            os.write(number, line)  # in one piece, at the end
-            return
-    write(agreed.file, kept + line, _mode(agreed.file.parent))
+    _replace(agreed.file, b"".join([*kept[-_MOST_LINES:], line]))
 
 
-@contextmanager
-def _own_file(path: Path) -> Iterator[int]:
-    """Open a learner's file for appending, and make it if it is not there.
+def _replace(path: Path, content: bytes) -> None:
+    """Replace a learner's file by one of the learner's own, whatever stands in its place.
 
-    Raises:
-        OSError: If it cannot be opened, or is anything else than a file of this learner's own.
+    Where the folder gives its own group to files, that group may read it.
     """
-    flags = os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-    number = os.open(path, flags, 0o600)
-    try:
-        found = os.fstat(number)
-        if not stat.S_ISREG(found.st_mode) or found.st_uid != os.geteuid() or found.st_nlink > 1:
-            raise PermissionError(f"{path} is not a file of your own.")
-        mode = _mode(path.parent)
-        if stat.S_IMODE(found.st_mode) != mode:
-            os.fchmod(number, mode)
-        yield number
-    finally:
-        os.close(number)
-
-
-def _mode(folder: Path) -> int:
-    """Return the rights of a file: where the folder gives its own group to files, that may read."""
-    return 0o640 if folder.stat().st_mode & stat.S_ISGID else 0o600
-
-
-def _kept(content: bytes, now: float) -> bytes:
-    """Return the whole lines of a file that are not too old, and half of what it may hold."""
-    lines = content.splitlines(keepends=True)
-    kept = b"".join(one for one in lines if one.endswith(b"\n") and _time_of(one) > now - DAY)
-    if len(kept) < LARGEST - 1024:
-        return kept
-    return kept[-LARGEST // 2 :].partition(b"\n")[2]
+    shared = path.parent.stat().st_mode & stat.S_ISGID
+    write(path, content, 0o640 if shared else 0o600)
 
 
 def _time_of(line: bytes) -> float:
@@ -171,20 +139,15 @@ def _time_of(line: bytes) -> float:
 
 
 @cache
-def _writer() -> Queue[Callable[[], None]]:
-    """Return what a thread does, one work after the other, so that nobody waits for a slow folder.
-
-    Raises:
-        RuntimeError: If no thread can be started.
-    """
-    waiting: Queue[Callable[[], None]] = Queue(_MOST_WAITING)
+def _writer() -> SimpleQueue[Callable[[], None]]:
+    """Return what a thread does, one after the other, so that nobody waits for a slow folder."""
+    waiting: SimpleQueue[Callable[[], None]] = SimpleQueue()
 
     def run() -> None:
         while True:
             work = waiting.get()
             with suppress(OSError):
                 work()
-            waiting.task_done()
 
     Thread(target=run, name="rosbeat share", daemon=True).start()
     return waiting
@@ -224,8 +187,7 @@ def turn_on(name: str = "", chosen: Path | None = None) -> str:
     if before is None or (before.folder, before.name) != (str(folder), name):
         agreed = Consent(str(folder), token_hex(16), name)
         try:
-            with _own_file(agreed.file):
-                pass
+            _replace(agreed.file, b"")
             _consent_file().parent.mkdir(parents=True, exist_ok=True)
             write(_consent_file(), f"{to_json(agreed)}\n".encode(), 0o600)
         except OSError as error:

@@ -35,13 +35,10 @@ def diagnosis_of(meaning: CommandMeaning | None) -> Diagnosis | None:
 
 # A build script. It is read and never run, so what is wrong with it is told by its text.
 
-_ANATOMY = "An entry point is 'executable = package.module:function'."
 #: What to do about a flaw of an entry point, by its kind, without giving the answer away.
 FLAW_HINTS = {
     "missing-comma": "A comma is missing after the first one: two entries have become one.",
-    "no-equals": _ANATOMY,
-    "two-equals": "One equals sign is enough: it is no comparison.",
-    "bad-name": _ANATOMY,
+    "form": "An entry point is 'executable = package.module:function', with one equals sign.",
     "slash": "Modules are written with dots: package.module.",
     "suffix": "Leave out .py: a module is named without it.",
     "no-function-part": "After the module comes a colon and the name of the function.",

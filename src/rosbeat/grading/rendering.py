@@ -18,7 +18,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from rosbeat.diagnosis.markup import in_html
+from rosbeat.diagnosis.mistakes import in_html
 from rosbeat.exercises.cards import LOOKS, clipped
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import PAGES

@@ -44,8 +44,8 @@ def fault_text(fault: Fault, event: str = "stopped", outcome: str = _NODE_ENDS) 
     return _three_parts(
         f"{fault.node} {event} at {time} s, in {fault.callback}: {fault.kind}: {text}",
         fault,
-        f"{known.beside_error} A{outcome}" if known else f"a{outcome}",
-        f"{known.to_try if known else 'correct that line,'} {'Then' if known else 'then'} run "
+        f"{known.evidence} A{outcome}" if known else f"a{outcome}",
+        f"{known.hint if known else 'correct that line,'} {'Then' if known else 'then'} run "
         "the cell that adds the node again.",
     )
 

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from operator import itemgetter
 from typing import Any
 
 from rcl_interfaces.srv import GetParameters
@@ -27,7 +25,6 @@ from rosbeat.diagnosis.situation import (
     SILENT,
     Beat,
     Condition,
-    Former,
     OtherDomain,
     Scene,
     rate_of,
@@ -76,7 +73,6 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
         virtual=world.live is None,
         waiting=world.virtual.has_work,
         domain_id=-1 if observer is None else world.domain_id or 0,
-        former=() if graph.on(topic, "publisher") else _former(messages),
         other_domains=other_domains,
         private_sessions=private_sessions,
     )
@@ -142,13 +138,6 @@ def _subscriptions(world: World, topic: str, messages: _Messages) -> Iterator[Be
                 missed=missed,
                 since=len(messages) - missed,
             )
-
-
-def _former(messages: _Messages) -> tuple[Former, ...]:
-    """Return who published once, in order of their last messages."""
-    numbers = Counter(node for _, node, _ in messages)
-    last = sorted({node: (number, at) for number, node, at in messages}.items(), key=itemgetter(1))
-    return tuple(Former(node, numbers[node], at) for node, (_, at) in last)
 
 
 # The nodes of other processes: what arrives from them, and whether they answer.

@@ -188,8 +188,8 @@ def _construction_error(name: str, error: BaseException) -> NodeConstructionErro
     if isinstance(error, RosbeatError):
         text, means, to_try = error.what, error.means, error.to_try
     elif known is not None:
-        text, means = first_sentence(fault.text), known.beside_error
-        to_try = f"{known.to_try} Then run the cell again."
+        text, means = first_sentence(fault.text), known.evidence
+        to_try = f"{known.hint} Then run the cell again."
     else:
         text = fault.text
         means = (

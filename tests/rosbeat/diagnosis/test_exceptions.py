@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from failed_calls import failed_call
 from rosbeat import diagnosis
-from rosbeat.diagnosis.calls import in_words, role_of, written_call
-from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, meaning_of
+from rosbeat.diagnosis.calls import written_call
+from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.programs import diagnose_output
-from rosbeat.records import Argument, Fault
+from rosbeat.records import Fault
 
 
 def fault(kind, text, code="", asked="", callback="tick", line=4):
@@ -25,53 +25,26 @@ def named(*arguments, **more):
     return found and found.mistake
 
 
+EXPECTED = "Expected <class 'std_msgs.msg._float32.Float32'>, got "
+FIELD = "The 'data' field must be of type 'float'"
+#: What the bank and broken nodes do not make, or what other versions of Python and ROS say.
 KNOWN = [
-    ("not-a-float", "AssertionError", "The 'data' field must be of type 'float'"),
-    ("wrong-values", "AssertionError", "The 'data' field must be a float in [-3.4e+38, 3.4e+38]"),
-    ("wrong-keyword", "AssertionError", "Invalid arguments passed to constructor: dat"),
-    ("field-without-name", "TypeError",
-     "Float32.__init__() takes 1 positional argument but 2 were given"),
-    ("wrong-field", "AttributeError", "'Float32' object has no attribute 'value'"),
-    ("number-published", "TypeError",
-     "Expected <class 'std_msgs.msg._float32.Float32'>, got <class 'float'>"),
-    ("class-published", "TypeError", "Expected <class 'std_msgs.msg._float32.Float32'>, got "
-     "<class 'std_msgs.msg._float32.Metaclass_Float32'>"),
-    ("type-mismatch", "TypeError", "Expected <class 'std_msgs.msg._float32.Float32'>, got "
-     "<class 'std_msgs.msg._string.String'>"),
-    ("type-mismatch", "RCLError", "Failed to create subscription: invalid allocator, at /x.c:261"),
-    ("type-mismatch", "RCLError", "Failed to create publisher: create_publisher() called for "
-     "existing topic name rt/temperature with incompatible type std_msgs::msg::dds_::String_"),
+    ("number-published", "TypeError", f"{EXPECTED}<class 'float'>"),
     ("not-a-message-type", "AttributeError", "type object 'type' has no attribute '_TYPE_SUPPORT' "
      "This might be a ROS 1 message type but it should be a ROS 2 message type."),
-    ("super-missing", "AttributeError", "'S' object has no attribute '_default_callback_group'"),
+    ("type-mismatch", "RCLError", "Failed to create subscription: invalid allocator, at /x.c:261"),
+    ("depth-missing", "TypeError", "Node.create_publisher() missing 1 required positional "
+     "argument: 'qos_profile'"),
+    ("argument-missing", "TypeError", "Node.create_subscription() missing 1 required positional "
+     "argument: 'qos_profile'"),
     ("super-missing", "AttributeError", "'S' object has no attribute '_Node__node'"),
-    ("invalid-name", "InvalidNodeNameException", "Invalid node name: node name must not contain "
-     "characters other than alphanumerics or '_':\n  'a-b'\n    ^"),
-    ("not-initialised", "NotInitializedException", "rclpy.init() has not been called."),
-    ("initialised-twice", "RuntimeError", "Context.init() must only be called once"),
-    ("shut-down-twice", "RuntimeError", "Context must be initialized before it can be shutdown"),
     ("exits", "SystemExit", ""),
-    ("no-value-yet", "UnboundLocalError",
-     "cannot access local variable 'status' where it is not associated with a value"),
     ("no-value-yet", "UnboundLocalError", "local variable 'status' referenced before assignment"),
-    ("name-taken", "AttributeError", "property 'publishers' of 'S' object has no setter"),
     ("name-taken", "AttributeError", "can't set attribute 'publishers'"),
     ("message-for-value", "TypeError",
      "float() argument must be a string or a number, not 'Float32'"),
-    ("message-for-value", "TypeError",
-     "float() argument must be a string or a real number, not 'Float32'"),
-    ("message-for-value", "TypeError", "must be real number, not Float32"),
-    ("callback-parameters", "TypeError", "S.tick() missing 1 required positional argument: 'msg'"),
-    ("callback-called", "TypeError", "'NoneType' object is not callable"),
-    ("none-used", "TypeError",
-     "'>' not supported between instances of 'float' and 'NoneType'"),
     ("none-used", "TypeError", "'NoneType' object cannot be interpreted as an integer"),
-    ("arguments-swapped", "TypeError",
-     "First element 20.0 at index 0 in parameters list is not a str"),
-    ("wrong-argument", "TypeError",
-     "Node.get_parameter() takes 2 positional arguments but 3 were given"),
     ("index-error", "IndexError", "pop from an empty deque"),
-    ("index-error", "IndexError", "pop from empty list"),
     ("wrong-rate", "EndlessChainError", "A timer of /s fired 10000 times while no time passed."),
     ("endless-chain", "EndlessChainError",
      "Callbacks trigger each other in an endless loop: a -> b -> a."),
@@ -86,16 +59,12 @@ def test_by_its_text(mistake, kind, text):
 
 
 BY_CALL = [
-    ("depth-missing", "create_publisher(message_type[Float32], str)"),
-    ("depth-missing", "create_subscription(message_type[Float32], str, method[cb(self, msg)])"),
     ("depth-missing", "create_subscription(message_type[Float32], str, callback=partial)"),
-    ("callback-missing", "create_subscription(message_type[Float32], str, int)"),
     ("callback-missing", "create_subscription(message_type[Float32], str, qos_profile=QoSProfile)"),
     ("callback-missing", "create_timer(float)"),
     ("argument-missing", "create_timer(method[tick(self)])"),
     ("argument-missing", "create_subscription(message_type[Float32], str)"),
     ("arguments-swapped", "create_publisher(str, message_type[Float32], int)"),
-    ("arguments-swapped", "create_timer(method[tick(self)], float)"),
     ("not-a-message-type", "create_publisher(type[float], str, int)"),
     ("wrong-depth", "create_publisher(message_type[Float32], str, str)"),
     ("wrong-argument", "create_publisher(message_type[Float32], list, int)"),
@@ -110,22 +79,12 @@ def test_by_the_call_that_failed(mistake, asked):
 
 TUPLE = "In Python, 22,5 is a tuple of two numbers"
 DECIMAL_COMMAS = [
-    ("wrong-argument", "Random.uniform() takes 3 positional arguments but 5 were given",
-     "self.t += random.uniform(-0,5, 0,5)", "with a point: 0.5"),
     ("wrong-argument", "sleep() takes 2 positional arguments but 3 were given", "sleep(0,5)",
      "with a point: 0.5"),
-    ("wrong-argument", "float expected at most 1 argument, got 2", "x = float(22,5)", "22.5"),
     ("wrong-argument", "round() takes at most 2 arguments (3 given)", "round(22,5, 1)", "22.5"),
-    ("wrong-argument", "Third element 5 at index 0 in parameters list is not a "
-     "ParameterDescriptor", 'self.declare_parameter("high", 26,5)', "26.5"),
     ("decimal-comma", 'can only concatenate tuple (not "float") to tuple', "t += x", TUPLE),
     ("decimal-comma", "'<' not supported between instances of 'tuple' and 'float'", "t < x", TUPLE),
-    ("decimal-comma", "unsupported operand type(s) for -: 'float' and 'tuple'", "x - t", TUPLE),
     ("decimal-comma", "unsupported format string passed to tuple.__format__", "f'{t:.2f}'", TUPLE),
-    ("decimal-comma", "float() argument must be a string or a real number, not 'tuple'",
-     "float(t)", TUPLE),
-    ("decimal-comma", "type tuple doesn't define __round__ method", "round(t)", TUPLE),
-    ("decimal-comma", "bad operand type for abs(): 'tuple'", "abs(t)", TUPLE),
 ]  # fmt: skip
 
 
@@ -142,13 +101,6 @@ def test_a_decimal_comma_in_a_timer_s_period():
     assert found.mistake == "wrong-argument"
     assert "0,5 isn't one number in Python, but two arguments: 0 and 5." in found.evidence
     assert found.hint == "Write a decimal number with a point: 0.5."
-
-
-def test_a_field_that_got_two_numbers_tells_of_the_point():
-    text = "The 'data' field must be of type 'float'"
-    found = diagnose_fault(fault("AssertionError", text, "msg.data = self.t", "field(tuple)"))
-    assert found.mistake == "not-a-float"
-    assert TUPLE in found.hint
 
 
 @pytest.mark.parametrize(("text", "code"), [
@@ -195,34 +147,13 @@ def test_what_is_not_known_gets_no_name(given_fault):
     assert named(*given_fault) is None
 
 
-TRANSITION = "goal_handle attempted invalid transition from state {}, at /x"
-INTEGER = "'{}' object cannot be interpreted as an integer"
 ENDED = "still running after 5 s"
 #: What a fault is, the mistake, and a part of its evidence and hint.
 SAID = [
-    # Services and actions.
-    (("TypeError", "", "x()", "send_response(NoneType)"), "response-missing", ""),
-    (("TypeError", "", "x()", "send_response(bool)"), "response-wrong", ""),
-    (("TypeError", "", "x()", "send_response(message[Trigger_Request])"), "response-wrong", ""),
-    (("AssertionError", "The 'result' field must be a sub message of type 'X_Result'"),
-     "result-missing", ""),
-    (("TypeError", "", "goal.publish_feedback([1])"), "feedback-wrong", ""),
-    (("RCLError", TRANSITION.format("EXECUTING with event CANCELED")), "canceled-unasked", ""),
-    (("RCLError", TRANSITION.format("SUCCEEDED with event SUCCEED")), "ended-twice", ""),
-    (("TypeError", INTEGER.format("float"), "x"), "not-an-integer", ""),
-    (("TypeError", INTEGER.format("Future"), "x"), "await-missing", ""),
-    (("TypeError", "'<' not supported between instances of 'Future' and 'int'"),
-     "await-missing", ""),
-    (("TypeError", "'Future' object is not callable", "x()"), "not-callable", ""),
     # A future that is asked for its result too soon is known by its line.
     (("TypeError", UNREADY, "x = int(self.reading.result())"), "await-missing", ""),
     (("TypeError", UNREADY, "x = int(self.reading)"), "none-used", ""),
-    (("RuntimeError", "The service type provided is not valid (<class 'std_msgs.msg._float32."
-      "Float32'>), this might be a message"), "wrong-argument", ""),
-    (("TypeError", "Node.create_service() takes 4 positional arguments but 5 were given", "x()"),
-     "wrong-argument", ""),
-    (("TypeError", "Node.create_service() missing 1 required positional argument: 'callback'",
-      "x()"), "callback-missing", ""),
+    (("TypeError", "'Future' object is not callable", "x()"), "not-callable", ""),
     # What ROS calls a callback with, whichever calls it.
     (("TypeError", "A.tick() takes 1 positional argument but 2 were given"), "callback-parameters",
      "ROS calls tick with 1 argument besides self, but tick takes none. Some callbacks"),
@@ -232,44 +163,21 @@ SAID = [
      "callback-parameters", "ROS calls tick with 2 arguments, but tick takes 1. A service's"),
     (("TypeError", "A.tick() missing 1 required positional argument: 'info'"),
      "callback-parameters", "an event's the event info"),
-    (("TypeError", "M.change() missing 1 required positional argument: 'mode'", "self.change()"),
-     "argument-missing", "change requires mode"),
-    # Quality of service.
-    (("InvalidQoSProfileException", "('Invalid', 'History and/or depth settings are required.')",
-      "QoSProfile()"), "depth-missing", "the number of messages"),
-    (("TypeError", "Duration.__init__() takes 1 positional argument but 2 were given",
-      "Duration(2)"), "wrong-argument", "a positional argument"),
-    (("TypeError", "Duration.__init__() got an unexpected keyword argument 'second'",
-      "Duration(second=2)"), "wrong-argument", "Duration has no argument second"),
-    (("TypeError", "SubscriptionEventCallbacks.__init__() got an unexpected keyword argument "
-      "'silence'", "x"), "wrong-argument", "no argument silence"),
-    (("AssertionError", "Invalid arguments passed to constructor: dict_keys(['depth', "
-      "'durabilty'])", "x"), "wrong-argument", "QoSProfile has no argument durabilty"),
-    (("AssertionError", "", "qos = QoSProfile(depth=10, deadline=2.0)"), "wrong-argument",
-     "for deadline"),
+    # Quality of service, in calls of several lines.
     (("AssertionError", "", "deadline=2.0,", "", "__init__"), "wrong-argument", "for deadline"),
     (("AssertionError", "", "QoSProfile(depth=9, deadline=2, lifespan=3)"), "wrong-argument",
      "one of the policies"),
-    (("AttributeError", "TRANSIENT", "q = DurabilityPolicy.TRANSIENT"), "wrong-attribute",
-     "DurabilityPolicy has no TRANSIENT"),
     *((("TypeError", MISSING, code, "", "__init__"), "callback-called", "on_silence") for code in
       ("events = SubscriptionEventCallbacks(deadline=self.on_silence())",
        "deadline=self.on_silence(),", 'Float32, "temperature", self.on_silence(), qos')),
-    (("TypeError", "__init__(): incompatible constructor arguments. The following are supported:"
-      "\n1. EventHandle", "self.create_subscription("), "wrong-argument", "the other side"),
-    *((("AttributeError", f"'{kind}' object has no attribute 'create_event_handlers'",
-        "self.create_subscription("), "wrong-argument", f"a {kind}") for kind in ("method", "str")),
     # Evidence is who raised what it means, and the line; and what Python or the session said.
-    (("TypeError", KNOWN[5][2], "self.publisher_.publish(25.0)"), "number-published",
+    (("TypeError", KNOWN[0][2], "self.publisher_.publish(25.0)"), "number-published",
      "tick raised TypeError. publish was given a float instead of a message. "
      "Line 4: `self.publisher_.publish(25.0)`."),
-    *(((*KNOWN[0][1:], "msg.data = 9 * 2", asked), None,
+    *((("AssertionError", FIELD, "msg.data = 9 * 2", asked), None,
        f"takes a float, but the value given {words}") for asked, words in
-      (("field(int)", "is an int."), ("field(NoneType)", "is None."), ("field(str)", "is a str."),
+      (("field(int)", "is an int."), ("field(NoneType)", "is None."), ("field(tuple)", "is a tup"),
        ("field(Decimal)", "is an object of type Decimal."), ("", "is something else."))),
-    (("AttributeError", "'A' object has no attribute 'publish_temperature'. Did you mean: "
-      "'publish_humidity'?"), "wrong-attribute",
-     "publish_temperature; it has publish_humidity. Is that the one you mean?"),
     (("UnboundLocalError", "cannot access local variable 'low' where it is not associated with a "
       "value", "low = self.get_parameter(low).value"), "no-value-yet", "quotes"),
     (("AttributeError", "__enter__", "with rclpy.init():"), "init-in-with", ""),  # Python 3.10
@@ -281,8 +189,11 @@ SAID = [
      "tick does not return: still running after 5 s. Line 4: `while True:`."),
     *((("DeadlinePassed", ENDED, code, "", "__init__"), "constructor-blocks", hint)
       for code, hint in (("while True:", "timer"), ("time.sleep(9)", "timer"),
-                         ("x = solve(y)", "What makes the constructor return?"),
-                         ("x", "The constructor does not return: still running after 5 s."))),
+                         ("x = solve(y)", "What makes the constructor return?"))),
+    (("DeadlinePassed", "600 timers in 599 calls", "self.create(x)"), "made-anew",
+     "tick created 600 timers in 599 calls, and each one slows the node down."),
+    (("DeadlinePassed", "612 calls of callbacks took 15 s", "x = sum(self.all)"), "slow-callback",
+     "612 calls of callbacks took 15 s"),
 ]  # fmt: skip
 
 
@@ -294,34 +205,6 @@ def test_what_is_said(given_fault, mistake, said):
     assert said in f"{found.evidence} {found.hint}"
     assert ("Line" in found.evidence) == bool(code)
     assert found.mistake != "constructor-blocks" or "A callback" not in found.hint
-
-
-def test_what_is_said_beside_the_error_has_no_lead_of_its_own():
-    one = fault(*KNOWN[10][1:], "self.create_publisher(float, 't', 10)")
-    assert "ROS 1" not in diagnose_fault(one).evidence
-    assert "The error mentions ROS 1" in meaning_of(one).beside_error
-    two_types = fault("RCLError", "Failed to create subscription: invalid allocator, at /x.c:261")
-    assert meaning_of(two_types).beside_error.startswith("The topic already exists")
-
-
-@pytest.mark.parametrize("what", ["publishers on /temperature", "subscriptions to /t", "timers"])
-def test_what_is_made_at_each_call_is_no_callback_that_does_not_return(what):
-    late = fault("DeadlinePassed", f"600 {what} in 599 calls", "self.create(x)")
-    found = diagnose_fault(late)
-    assert found.mistake == "made-anew"
-    assert found.evidence == (
-        f"tick created 600 {what} in 599 calls, and each one slows the node down. Line 4: "
-        "`self.create(x)`."
-    )
-    assert "once, in the constructor" in found.hint
-
-
-def test_many_slow_calls_are_no_callback_that_does_not_return():
-    late = fault("DeadlinePassed", "612 calls of callbacks took 15 s", "x = sum(self.all)")
-    found = diagnose_fault(late)
-    assert found.mistake == "slow-callback"
-    assert "not return" not in found.evidence + found.hint
-    assert "612 calls of callbacks took 15 s" in found.evidence
 
 
 @pytest.mark.parametrize(
@@ -340,23 +223,6 @@ def test_the_first_sentence(text, first):
 
 
 # Calls that are only written.
-
-
-@pytest.mark.parametrize(
-    ("kind", "role", "words"),
-    [
-        (Argument("message_type", "Float32"), "type", "the message type Float32"),
-        (Argument("type", "float"), "type", "the type float"),
-        (Argument("int"), "depth", "a whole number"),
-        (Argument("QoSProfile"), "depth", "a QoS profile"),
-        (Argument("function", "f", ()), "callback", "the function f"),
-        (Argument("NoneType"), "none", "None"),
-        (Argument("deque"), "other", "an object of type deque"),
-    ],
-)
-def test_what_an_argument_could_be(kind, role, words):
-    assert role_of(kind) == role
-    assert in_words(kind) == words
 
 
 @pytest.mark.parametrize(
@@ -448,10 +314,3 @@ def ids_in_the_room():
 
 def test_every_id_exists():
     assert ids_in_the_room() - set(MISTAKES) == set()
-
-
-def test_every_row_of_a_node_is_recognised():
-    # Some ids are chosen from a table; the tests above show them.
-    shown = {mistake for mistake, *_ in (*KNOWN, *BY_CALL)}
-    rows = {MISTAKES[name].row for name in ids_in_the_room() | shown}
-    assert {*range(1, 20), 28, 29, 30} <= rows

@@ -117,9 +117,7 @@ def domain_id():
     [
         publisher("topic first", "arguments-swapped", "'temperature', Float32, 10"),
         timer("called", "callback-called", "1.0, self.tick()"),
-        sensor("no super", "super-missing", P + T),
         sensor("init twice", "initialised-twice", f"rclpy.init()\n{S}{P}{V}{T}"),
-        Broken("no init", "not-initialised", "Node('x')"),
         Broken("with init", "init-in-with", "with rclpy.init():\n    pass"),
         Broken("shut down twice", "shut-down-twice",
                "rclpy.init()\nrclpy.shutdown()\nrclpy.shutdown()"),

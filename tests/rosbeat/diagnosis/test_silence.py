@@ -1,19 +1,16 @@
 """Why nothing arrives on a topic: from scenes to explanations."""
 
-import ast
 from dataclasses import FrozenInstanceError, replace
-from html.parser import HTMLParser
-from itertools import combinations
-from pathlib import Path
 
 import pytest
 
 from made_records import STRING
+from parsed_html import Parsed
 from rosbeat.diagnosis import silence
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.diagnosis.silence import WELL, difference, explain, nearest, report, sides_of
-from rosbeat.diagnosis.situation import Beat, Condition, Former, OtherDomain, StaleBuild, rate_of
-from rosbeat.records import GraphSnapshot, QoS
+from rosbeat.diagnosis.situation import Beat, Condition, OtherDomain, StaleBuild, rate_of
+from rosbeat.records import QoS
 from scenes import (
     LATCHED,
     SENSOR_DATA,
@@ -54,18 +51,10 @@ def test_what_is_almost_the_same_is_found_and_other_words_are_not(other, words):
     assert words is None or words in difference(TOPIC, other)
 
 
-def test_of_two_the_nearer_one_and_always_the_same():
-    others = ["/temprature", "/temperatures", "/tmprature"]
-    assert nearest(TOPIC, others) == nearest(TOPIC, reversed(others)) == "/temperatures"
-    assert nearest(TOPIC, []) == ""
-    assert difference("/room/temperature", "/room_temperature").endswith("in one character")
-
-
 # The causes.
 
 BUILD = StaleBuild("sensor_simulator", "temperature_publisher", "sensor_simulator/publisher.py")
 OTHER = OtherDomain(12, publishers=("/sensor",), subscriptions=("/display",))
-FORMER = (Former("/old", 3, seconds(2)), Former("/sensor", 12, seconds(5)))
 LISTENS = sub(matched=0)
 UNHEARD = (spoke(), heard(number=0))
 TWO = scene(pub(), pub(), sub(), twins=("/sensor",), beats=(spoke(), heard()))
@@ -96,10 +85,6 @@ CASES = {
         ["No node publishes on /temperature.", "/monitor subscribes to it",
          "with `ros.add(...)`, and",
          "Topics with a publisher: /humidity."]),
-    "somebody did before": (scene(sub(), former=FORMER), "no-publisher",
-        ["/sensor published until 5 s, and is no longer running"]),
-    "another process did": (scene(sub(), former=(Former("?", 1, seconds(1)),)), "no-publisher",
-        ["another process published until 1 s"]),
     "with a domain": (scene(sub(), domain_id=7), "no-publisher", ["or in a terminal"]),
     "from a terminal": (elsewhere(scene(sub())), "no-publisher", ["with `ros2 run`"]),
     "nobody subscribes": (scene(pub(matched=0), beats=[spoke()]), "no-subscription",
@@ -166,7 +151,7 @@ CASES = {
     "a timer that ran": (silent(timers=(timer(calls=10),)), "never-published",
         ["publish_temperature ran 10 times", "reaches its call of `publish`"]),
     "a slow timer": (silent(timers=(timer(period=60.0),)), "never-published",
-        ["a period of 60 s and has not fired", "longer than 60 s"]),
+        ["a period of 60 s and has not fired", "more time pass than 60 s"]),
     "a timer that did not": (silent(timers=(timer(),)), "never-published",
         ["a period of 1 s and has not fired", "cancels"]),
     "a silent publisher of another process": (elsewhere(silent()), "never-published",
@@ -222,7 +207,7 @@ CASES = {
     "an old build, and all is well": (well(stale_builds=(BUILD,)), "",
         ["Note: temperature_publisher was edited"]),
     "a silent publisher may be an old build": (
-        elsewhere(scene(pub(), sub(), stale_builds=(BUILD,))), None, []),
+        elsewhere(scene(pub(), sub(), stale_builds=(BUILD,))), f"not-rebuilt {UNKNOWN}", []),
     "several publishers add up": (
         scene(pub(), pub("/other"), sub(), beats=(spoke(), spoke("/other", rate=3.0), heard())),
         "", ["4 messages a second arrive at /monitor"]),
@@ -245,7 +230,7 @@ def in_a_line(found):
 def test_the_causes_and_what_is_said(case):
     told, mistakes, parts = CASES[case]
     found = explain(TOPIC, told)
-    assert mistakes is None or causes(told) == mistakes.split()
+    assert causes(told) == mistakes.split()
     for part in parts:
         assert part in in_a_line(found)
     assert found.verdict == (causes(told)[0] if found.diagnoses else WELL)
@@ -254,11 +239,6 @@ def test_the_causes_and_what_is_said(case):
     assert all(one.evidence and one.hint for one in found.diagnoses)
     assert found == explain(TOPIC, told)
     assert max(map(len, str(found).splitlines())) <= 100
-
-
-def test_an_old_build_is_among_the_causes_of_silence():
-    assert "not-rebuilt" in causes(CASES["a silent publisher may be an old build"][0])
-    assert "/display" not in explain(TOPIC, CASES["in another domain"][0]).diagnoses[0].evidence
 
 
 @pytest.mark.parametrize(
@@ -339,49 +319,6 @@ def test_every_verdict_is_a_mistake_with_a_name_and_is_tried_here():
     assert set(silence._ORDER) <= {*MISTAKES, UNKNOWN}
 
 
-def test_every_mistake_that_is_named_is_in_the_order():
-    folder = Path(silence.__file__).parent
-    named = {
-        call.args[0].value
-        for path in folder.glob("silence.py")
-        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(call, ast.Call) and ast.unparse(call.func) in ("finding", "_Cause")
-        and isinstance(call.args[0], ast.Constant)
-    }  # fmt: skip
-    assert named == set(silence._ORDER) - {UNKNOWN}
-
-
-def both(one, other):
-    """Return both scenes in one, each on its own nodes."""
-
-    def name(record):
-        return replace(record, node=f"{record.node}_2")
-
-    nodes = tuple(f"{node}_2" for node in other.graph.nodes)
-    ends = tuple(map(name, other.graph.endpoints))
-    graph = GraphSnapshot((*one.graph.nodes, *nodes), (*one.graph.endpoints, *ends))
-    return replace(
-        one,
-        graph=graph,
-        beats=(*one.beats, *map(name, other.beats)),
-        conditions=(*one.conditions, *map(name, other.conditions)),
-        own=one.own | set(nodes),
-    )
-
-
-#: In the order in which they are named.
-TOGETHER = [silent(ended()), silent(Condition("/monitor", "paused")), clash(SENSOR_DATA), silent(),
-            CASES["has stopped"][0], TWO]  # fmt: skip
-
-
-@pytest.mark.parametrize(("one", "other"), list(combinations(range(len(TOGETHER)), 2)))
-def test_pairs_of_causes_are_both_named_the_likelier_first(one, other):
-    found = causes(both(TOGETHER[one], TOGETHER[other]))
-    likelier, less = causes(TOGETHER[one])[0], causes(TOGETHER[other])[0]
-    assert found.index(likelier) < found.index(less)
-    assert found == causes(both(TOGETHER[other], TOGETHER[one]))
-
-
 def test_the_text():
     assert str(explain(TOPIC, scene(sub()))).splitlines() == [
         "\N{BALLOT X} No node publishes on /temperature.",
@@ -400,33 +337,13 @@ def test_the_text():
         found.verdict = "other"
 
 
-class _Reader(HTMLParser):
-    """Reads the words, and complains about tags that do not close."""
-
-    def __init__(self):
-        super().__init__()
-        self.words, self.open = [], []
-
-    def handle_starttag(self, tag, attrs):
-        if tag != "br":
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        self.words.append(data)
-
-
 @pytest.mark.parametrize("verdict", SCENES)
 def test_the_html_says_the_same_and_takes_the_readers_colours(verdict):
     found = explain(TOPIC, SCENES[verdict])
-    html, reader = found._repr_html_(), _Reader()
-    reader.feed(html)
-    assert reader.open == []
+    html = found._repr_html_()
     assert "background" not in html
     assert ";color:" not in html
-    words = "".join(reader.words)
+    words = Parsed(html).text
     shown = [found.title, *found.headlines[1:], *found.sentences]
     shown += [text for one in found.diagnoses for text in (one.evidence, one.hint)]
     for text in shown:

@@ -6,7 +6,7 @@ import pytest
 
 from rosbeat import quiz
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.questions import QUESTIONS
+from rosbeat.exercises.quiz import QUESTIONS
 
 EVERY = [question for questions in QUESTIONS.values() for question in questions]
 

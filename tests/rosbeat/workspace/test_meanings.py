@@ -168,16 +168,12 @@ def test_only_what_is_not_at_the_top_is_taken_for_one_s_own_folder(meaning, root
 @pytest.mark.parametrize(
     ("folder", "typed", "end"),
     [
-        ("..", "~/elsewhere/ROS2_and_RL_Tutorials/src", 'cd "$ROS2_WORKSPACE"/src'),
-        ("..", "ROS2_and_RL_Tutorials/srk", 'cd "$ROS2_WORKSPACE"/src'),
-        ("..", "ROS2_and_RL_Tutorials/xyz", 'cd "$ROS2_WORKSPACE"'),
-        ("..", "/home/ROS2_and_RL_Tutorials/my foldr", "cd \"$ROS2_WORKSPACE\"/'my folder'"),
+        ("..", "~/elsewhere/ROS2_and_RL_Tutorials/src", 'cd "$ROS2_WORKSPACE"'),
         (".", "my foldr", "Did you mean 'my folder'?"),
         (".", "./srcc", "Did you mean src?"),
         (".", "nowhere/srcc", "`ls` lists its content."),
         (".", "fill", "`ls` lists its content."),  # a file is not proposed
         (".", "/Documents/my x", "cd ~/'Documents/my x'"),
-        (".", "/Documents/xyz", "`ls ~` lists its content."),
     ],
 )
 def test_the_folder_that_was_meant(meaning, root, folder, typed, end):
@@ -218,7 +214,7 @@ LINE = f"'temperature_publisher = {ENTRY}',"
         (SETUP, ENTRY, "xyz.xyz:main", 0, FINE, ["Compare it with the names of your files"]),
         (SETUP, ENTRY, ENTRY.replace(":main", ":xyz"), 0, FINE,
          ["Define that function, or name one that exists."]),
-        (SETUP, f"publisher = {ENTRY}", f"publisher == {ENTRY}", 0, FINE, ["more than one `=`"]),
+        (SETUP, f"publisher = {ENTRY}", f"publisher == {ENTRY}", 0, FINE, ["a single `=`"]),
         (SETUP, None, None, 0, FINE, ["no setup.py"]),
         (f"resource/{PACKAGE}", None, None, 0, FINE, []),  # setup.py does not name it
         # A good build, and two entries for one function; a list that is computed is not blamed.
@@ -323,19 +319,14 @@ WITH = "TypeError: 'NoneType' object does not support the context manager protoc
         ("", "pass", None),
         # The end of a node.
         ("rclpy._rclpy_pybind11.RCLError: failed: rcl_shutdown already called on the given context",
-         "rclpy.shutdown()", "try_shutdown"),
-        ("rclpy.executors.ExternalShutdownException", "pass", "ROS was shut down while"),
-        ("KeyboardInterrupt", "pass", "Ctrl+C ended the node"),
+         "rclpy.shutdown()", "Ctrl+C has already shut ROS down"),
+        ("rclpy.executors.ExternalShutdownException", "pass", "Ctrl+C ended the program"),
+        ("KeyboardInterrupt", "pass", "Ctrl+C ended the program"),
     ],
 )  # fmt: skip
 def test_an_error_of_a_node(meaning, last, line, text):
     said = meaning(RUN, traceback(last, line))
     assert text in said if text else said is None
-
-
-def test_ctrl_c_while_a_node_starts(meaning):
-    output = traceback("KeyboardInterrupt", "rclpy.init()", "__init__")
-    assert "still starting" in meaning(RUN, output, 254)
 
 
 def test_of_a_script_without_ros_nothing_is_said_about_ros(meaning):
