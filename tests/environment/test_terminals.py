@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from tornado.websocket import websocket_connect
 
-from course_tool import commands, lab, layout, surroundings
+from course_tool import commands, lab, layout, running
 from rosbeat.environment import learners_folder
 
 LAYOUT = layout.of_this_checkout()
@@ -44,7 +44,7 @@ def environ(tmp_path):
         program.write_text("#!/bin/sh\necho wrong\n")
         program.chmod(0o755)
     plain = {"HOME": str(tmp_path), "PATH": os.defpath, "TERM": "dumb"}
-    return commands.for_shells(surroundings.inside(plain, LAYOUT), LAYOUT)
+    return commands.for_shells(running.inside(plain, LAYOUT), LAYOUT)
 
 
 def typed(text, environ, folder=LAYOUT.root):
