@@ -1,15 +1,14 @@
 import time
 
 import pytest
-from ros2_command.definitions import nested_type
-from ros2_command.discovery import count_participants, has_gaps
 from ros2_command.errors import CommandError
-from ros2_command.graph import SAME_LOOKS, Graph
+from ros2_command.graph import SAME_LOOKS, Graph, count_participants, has_gaps
 from ros2_command.names import check_name, full_name, is_hidden, nearest
-from ros2_command.rates import Bandwidth, Delays, Rates
+from ros2_command.packages import nested_type
 from ros2_command.verbs.completion import candidates
 from ros2_command.verbs.doctor import Finding, report, summarize
 from ros2_command.verbs.param import flat, nested
+from ros2_command.verbs.topic import Bandwidth, Delays, Rates
 
 
 def test_the_nearest_name():

@@ -7,8 +7,7 @@ from collections.abc import Callable, Sequence
 from importlib.resources import files
 
 from ros2_command.errors import CommandError
-from ros2_command.parser import build
-from ros2_command.registry import COMMANDS, Verb
+from ros2_command.registry import COMMANDS, Verb, build, verbs_of
 
 _BASH = """_ros2_complete() {
     local IFS=$'\\n'
@@ -57,10 +56,10 @@ def _next(words: list[str]) -> list[str]:
         return list(COMMANDS)
     if words[0] not in COMMANDS:
         return []
-    verbs = COMMANDS[words[0]].verbs
-    if verbs and len(words) == 1:
+    verbs = verbs_of(words[0])
+    if "" not in verbs and len(words) == 1:
         return list(verbs)
-    given = words[2:] if verbs else words[1:]
+    given = words[1:] if "" in verbs else words[2:]
     arguments = [one.dest for one in _parser_of(words)._actions if not one.option_strings]
     if len(given) >= len(arguments) or words[:2] == ["pkg", "create"]:  # which wants a new name
         return []
@@ -96,7 +95,7 @@ def _executables(given: list[str]) -> list[str]:
 
 def _interfaces(kind: str | None) -> Callable[[list[str]], list[str]]:
     def find(given: list[str]) -> list[str]:
-        from ros2_command.definitions import all_interfaces
+        from ros2_command.packages import all_interfaces
 
         return [one.name for one in all_interfaces() if kind in (None, one.kind)]
 
@@ -151,4 +150,4 @@ _SOURCES: dict[str, Callable[[list[str]], list[str]]] = {
 }
 
 
-VERBS = {"": Verb(_main, _add_arguments)}
+VERBS = {"": Verb("", _main, _add_arguments)}
