@@ -61,7 +61,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
             start_new_session=True,
         )
     try:
-        info = _when_open(server, Path(runtime))
+        info = when_open(server, Path(runtime))
         if info:
             say(f"The course is open at  {address(layout, info, options)}")
             say(f"Ctrl+C stops it. JupyterLab's messages go to {shown}")
@@ -196,7 +196,7 @@ def end(server: subprocess.Popen[bytes]) -> None:
         server.wait()
 
 
-def _when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
+def when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
     """Wait until the server listens; return what it says of itself, nothing if it ended."""
     file = runtime / f"jpserver-{server.pid}.json"
     while server.poll() is None:
