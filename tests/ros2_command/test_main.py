@@ -4,7 +4,9 @@ import sys
 
 import pytest
 from readme_table import SOURCE, UPSTREAM, options, table, verbs
+from ros2_command.errors import CommandError
 from ros2_command.main import guarded, main
+from ros2_command.names import check_name, full_name, is_hidden, nearest
 from ros2_command.registry import COMMANDS, LEFT_OUT, verbs_of
 
 PKG_HELP = """\
@@ -163,3 +165,22 @@ def test_every_verb_knows_every_option_of_the_original():
 def test_the_readme_has_the_table():
     """Print it anew with `python tests/ros2_command/readme_table.py`."""
     assert f"\n{table()}\n" in (SOURCE / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_nearest_name():
+    assert nearest("Temprature", ["/humidity", "Temperature"]) == "Temperature"
+    assert nearest("temperature", ["/robot/left/arm/temperature"]) == "/robot/left/arm/temperature"
+    assert nearest("xyz", ["abc"]) is None
+    assert nearest("std_msgs/msg/Nope", ["std_msgs/msg/Int8"]) is None
+    assert nearest("std_msgs/msg/Flot32", ["std_msgs/msg/Int8", "std_msgs/msg/Float32"])[-7:] == (
+        "Float32"
+    )
+
+
+def test_names():
+    assert [is_hidden(name) for name in ("/a/b_", "/a/_b/c", "/_x")] == [False, True, True]
+    assert (full_name("a", "/"), full_name("a", "/b")) == ("/a", "/b/a")
+    check_name("topic", "~/a/b_1")
+    for name in ("", "a//b", "a/", "1a", "a b", "/a/2"):
+        with pytest.raises(CommandError):
+            check_name("topic", name)

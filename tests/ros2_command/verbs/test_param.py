@@ -1,6 +1,7 @@
 import re
 
 import pytest
+from ros2_command.verbs.param import flat, nested
 
 pytestmark = pytest.mark.ros
 
@@ -143,3 +144,9 @@ def test_a_node_that_does_not_answer(graph, another_node):
     with another_node(graph, "busy", "temperature", 0):
         error = graph.error("param", "describe", "/busy", "rate")
     assert re.fullmatch(r"The service '/busy/\w+' did not answer in 5 seconds\n", error), error
+
+
+def test_dots_in_names_of_parameters():
+    assert nested({"a.b": 1, "a.c": 2, "d": 3}) == {"a": {"b": 1, "c": 2}, "d": 3}
+    assert nested({"a": 1, "a.b": 2}) == {"a": 1, "a.b": 2}
+    assert flat({"a": {"b": 1, "c": {"d": 2}}, "e.f": 3}) == {"a.b": 1, "a.c.d": 2, "e.f": 3}
