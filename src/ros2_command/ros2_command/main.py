@@ -26,18 +26,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         from ros2cli.cli import main as original
 
         return int(original(argv=argv) or 0)
-    _open_closed_streams()
     code = guarded(lambda: _run(list(sys.argv[1:] if argv is None else argv)))
     if argv is None and "rclpy" in sys.modules:
         _leave_at_once(code)
     return code
-
-
-def _open_closed_streams() -> None:
-    """Replace the None that Python has for a closed stream (`ros2 pkg list >&-`)."""
-    for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
 def _leave_at_once(code: int) -> NoReturn:
