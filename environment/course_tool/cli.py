@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import errno
 import os
+import shlex
 import traceback
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
-from pathlib import Path
 
 from course_tool import commands, folder, testing
 from course_tool.doctor import doctor
 from course_tool.hub import hub
 from course_tool.lab import lab, prepare_image, serve
 from course_tool.layout import Layout, of_this_checkout
-from course_tool.problems import Problem, complain, disk_full, not_writable, of_another_user, say
+from course_tool.problems import Problem, complain, say
 
 HELP = """\
 Usage:  ./environment/course COMMAND [OPTIONS]
@@ -76,15 +76,15 @@ def _unknown(name: str) -> Problem:
 
 
 def _from_system(layout: Layout, error: OSError) -> Problem:
-    place = str(error.filename or layout.root)
-    if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        return disk_full(place)
-    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        reason = os.strerror(error.errno)
-        if error.errno != errno.EROFS and Path(place).is_relative_to(layout.learner):
-            return of_another_user(place, layout.learner, reason)
-        return not_writable(layout.root, f"{place}: {reason}")
-    return _unforeseen(str(error))
+    if error.errno not in _OF_THE_MACHINE:
+        return _unforeseen(str(error))
+    owner = f'sudo chown -R "$USER" {shlex.quote(str(layout.root))}'
+    return Problem(
+        f"{error.filename or layout.root} cannot be read or written ({error.strerror}).",
+        f"The course writes in {layout.venv}, and your pages are in {layout.learner}.",
+        "Free some space if the disk is full. If another user made the files, make them yours:\n"
+        f"{owner}\nThen run the same command again, or clone the course below your home.",
+    )
 
 
 def _unforeseen(details: str) -> Problem:
@@ -97,6 +97,8 @@ def _unforeseen(details: str) -> Problem:
     )
 
 
+#: Errors that a person can do something about.
+_OF_THE_MACHINE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC, errno.EDQUOT)
 _SEE_ALL = "See all of them:  ./environment/course help"
 _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
     "lab": lab,

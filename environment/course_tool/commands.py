@@ -9,17 +9,17 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from course_tool import installing, prepare, running, surroundings
+from course_tool import installing, prepare, running
 from course_tool.layout import Layout
-from course_tool.problems import Problem, installer_stopped, say
+from course_tool.problems import Problem, say
 
 _SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]
 
 
 def shell(layout: Layout, arguments: Sequence[str]) -> NoReturn:
     """Become a bash with the environment active; arguments are bash's own (`-c "command"`)."""
-    environ = surroundings.with_ros(prepare.ready(layout, "course"), layout)
-    surroundings.lease_domain(environ, layout)
+    environ = running.with_ros(prepare.ready(layout, "course"), layout)
+    running.lease_domain(environ, layout)
     command = ["bash", *arguments] if arguments else interactive_shell()
     os.execvpe("bash", command, for_shells(environ, layout))
 
@@ -40,8 +40,8 @@ def variables(layout: Layout, arguments: Sequence[str]) -> int:
     The user's own start file may source another ROS or put another Python first, so the shell asks
     for this after it.
     """
-    clean = surroundings.cleaned(os.environ, layout).environ
-    wanted = surroundings.with_ros(surroundings.inside(clean, layout), layout)
+    clean = running.cleaned(os.environ, layout).environ
+    wanted = running.with_ros(running.inside(clean, layout), layout)
     print("\n".join(shell_lines(os.environ, wanted)))
     return 0
 
@@ -84,15 +84,11 @@ def site(layout: Layout, arguments: Sequence[str]) -> int:
 
 def lock(layout: Layout, options: Sequence[str]) -> int:
     """Remake every lock; versions stay unless `--upgrade` is among the options."""
-    environ = prepare.ready(layout, "course")
+    environ = installing.for_installers(layout, prepare.ready(layout, "course"))
     for name in ("bootstrap", "build", "course", "test", "site", "hub"):
         say(f"  {name}.in -> {name}.lock")
         command = compile_command(layout, name, options)
-        result = running.stream(
-            command, environ, lambda line: line.startswith("error"), cwd=layout.environment
-        )
-        if not result.ok:
-            raise installer_stopped(result.text, layout.environment)
+        installing.install(command, environ, cwd=layout.environment)
     return 0
 
 

@@ -15,7 +15,6 @@ from __future__ import annotations
 import json
 import os
 import platform
-import shlex
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -71,9 +70,7 @@ def make(layout: Layout) -> None:
         raise Problem(
             f"{layout.learner.name} is not a folder: it is a file, or a link that leads nowhere.",
             "The course keeps your pages in a folder of this name. Nothing was changed.",
-            "If it is a link, connect the disk that it leads to.\n"
-            "Otherwise move it away:  mv "
-            + shlex.join(map(str, (layout.learner, _free_name(layout.learner, "before")))),
+            "If it is a link, connect the disk that it leads to. Otherwise rename it.",
         )
     is_new = not layout.notes.is_dir()
     layout.notes.mkdir(parents=True, exist_ok=True)
@@ -85,8 +82,8 @@ def make(layout: Layout) -> None:
             for page in shipped_pages(layout):
                 _copy_once(layout, page)
             _copy_home(layout)
-            show_solutions(layout)
-        show_docs(layout)
+            _show_solutions(layout)
+        _show_docs(layout)
     if is_new and not layout.is_release:
         say(f"Your own pages are in the folder {layout.learner.name}.")
 
@@ -113,70 +110,39 @@ def _copy_home(layout: Layout) -> None:
 
 
 def _copy_once(layout: Layout, page: Path) -> None:
-    """Copy a page that was not copied before; work that somebody did in the course's own moves."""
+    """Copy a page that was not copied before, with what somebody did in the course's own."""
     base = _base_of(layout, page.name)
     if base.exists():
         return
-    found, original = page.read_bytes(), _of_git(layout, page)
-    is_work = _was_run(found) and not layout.is_shared
-    target = layout.learner / page.name
-    if is_work and target.exists() and target.read_bytes() != found:
-        target = _free_name(target, "from-notebooks")
-    _write_once(target, found if is_work else as_opened(found))
-    if is_work and original is not None:
-        say(f"What you did in notebooks/{page.name} is in {_shown(layout, target)} now.")
-        _write(page, original)
+    found = page.read_bytes()
+    _write_once(layout.learner / page.name, as_opened(found))
     # Without git, nobody knows what a page was before somebody worked in it.
-    _write(base, original or (b"" if is_work else found))
+    _write(base, _of_git(layout, page) or (b"" if _was_run(found) else found))
 
 
 # The solutions, to look at.
 
 
-def show_solutions(layout: Layout) -> None:
-    """Copy the solutions to where the learner can open them, with a banner, and read-only."""
-    files = {}
+def _show_solutions(layout: Layout) -> None:
+    """Copy the solutions to where the learner can open them, with a banner."""
     for path in (layout.root / SOLUTIONS).rglob("*"):
         if path.is_file() and "__pycache__" not in path.parts and path.name != HOME:
             content = path.read_bytes()
-            files[path] = as_solution(path.name, content) if path.match(PAGES) else content
-    _show(layout, SOLUTIONS, files)
+            _show(layout, path, as_solution(path.name, content) if path.match(PAGES) else content)
 
 
-def show_docs(layout: Layout) -> None:
+def _show_docs(layout: Layout) -> None:
     """Copy the docs to where links of pages lead; their own links lead to the learner's pages."""
     docs = layout.root / DOCS
-    found = [*docs.glob("*.md"), *docs.glob("images/*")]
-    linked = {path: path.read_bytes().replace(b"](../notebooks/", b"](../") for path in found}
-    _show(layout, DOCS, linked)
+    for path in (*docs.glob("*.md"), *docs.glob("images/*")):
+        _show(layout, path, path.read_bytes().replace(b"](../notebooks/", b"](../"))
 
 
-def _show(layout: Layout, name: str, files: Mapping[Path, bytes]) -> None:
-    """Make a folder of the learner's show these files, read-only, and no older ones.
-
-    A file that can be written to is a person's own, and stays, perhaps under another name.
-    """
-    targets = {layout.learner / path.relative_to(layout.root): files[path] for path in files}
-    for target, content in targets.items():
-        if target.exists():
-            if target.read_bytes() == content:
-                continue
-            if _is_own(target):
-                say(f"Your {_shown(layout, target)} is kept as {_shown(layout, _keep(target))}.")
+def _show(layout: Layout, path: Path, content: bytes) -> None:
+    """Make a read-only file of the learner's folder follow one of the course."""
+    target = layout.learner / path.relative_to(layout.root)
+    if not target.exists() or target.read_bytes() != content:
         _write(target, content, _READ_ONLY)
-    # Only what was put there goes again: a person's own file may be read-only too.
-    record = layout.notes / f"{name}.json"
-    before = json.loads(record.read_bytes()) if record.exists() else []
-    now = [path.relative_to(layout.learner).as_posix() for path in sorted(targets)]
-    for path in (layout.learner / inside for inside in before if inside not in now):
-        if path.exists() and not _is_own(path):
-            path.unlink()
-    if now != before:
-        _write(record, json.dumps(now).encode())
-
-
-def _is_own(path: Path) -> bool:
-    return bool(path.stat().st_mode & 0o222)
 
 
 def as_solution(name: str, content: bytes) -> bytes:
@@ -205,16 +171,8 @@ def reset(layout: Layout, arguments: Sequence[str]) -> int:
             "Pages are brought back one by one, so that nothing goes by mistake.",
             "Name it:  ./environment/course reset 03",
         )
-    pages = {page: _shipped_bytes(layout, page) for page in _named(layout, arguments)}
-    for page in pages:
-        if not pages[page]:
-            raise Problem(
-                f"Nobody knows what {page.name[:2]} was when it was shipped.",
-                "Somebody has worked in the course's own copy, and git does not have it. "
-                "Nothing was changed.",
-                "Get the course once more, and copy the page from there into notebooks.",
-            )
-    for page, content in pages.items():
+    for page in _named(layout, arguments):
+        content = _shipped_bytes(layout, page) or page.read_bytes()
         target = layout.learner / page.name
         is_own = target.exists() and not _is_same(target.read_bytes(), content)
         before = f"; yours is kept as {_shown(layout, _keep(target))}" if is_own else ""

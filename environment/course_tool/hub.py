@@ -11,7 +11,7 @@ from typing import NoReturn
 
 from course_tool import installing, prepare, running
 from course_tool.layout import Layout
-from course_tool.problems import installer_stopped, say
+from course_tool.problems import say
 
 _CONFIGURED = ("-f", "--config")
 #: What npm makes the proxy from; the second is its lock.
@@ -78,28 +78,19 @@ def _install(layout: Layout, environ: Mapping[str, str]) -> None:
     proxy.mkdir(parents=True, exist_ok=True)
     for name in _PROXY:
         shutil.copy(layout.hub / name, proxy)
-    compiled = [str(layout.venv / "lib"), str(layout.root / "src")]
-    npm: list[str | Path] = [
-        layout.venv / "bin" / "npm",
-        "ci",
-        "--no-audit",
-        "--no-fund",
-        "--prefix",
-        proxy,
-    ]
+    npm: list[str | Path] = [layout.venv / "bin" / "npm", "ci", "--no-audit", "--no-fund"]
     # Matplotlib lists the machine's fonts before its first picture, for seconds and once per home.
-    fonts = ["-c", "import matplotlib.font_manager"]
-    compiling: list[str | Path] = [layout.python, "-m", "compileall", "-qq", "-j", "0", *compiled]
+    fonts: list[str | Path] = [layout.python, "-c", "import matplotlib.font_manager"]
     steps: dict[str, list[str | Path]] = {
         "JupyterHub, which hub.lock lists": installing.lock_command(layout, "hub"),
-        "its proxy": npm,
-        "compiled files": compiling,
-        "a list of fonts": [layout.python, *fonts],
+        "its proxy": [*npm, "--prefix", proxy],
+        "a list of fonts": fonts,
     }
     for what, command in steps.items():
         say(f"  installing {what}")
-        result = running.quiet(command, {**environ, "MPLCONFIGDIR": str(_fonts(layout))})
-        # Some packages bring files for other Pythons, which this one cannot compile.
-        if not result.ok and command is not compiling:
-            raise installer_stopped(result.text, layout.venv)
+        installing.install(command, {**environ, "MPLCONFIGDIR": str(_fonts(layout))})
+    say("  installing compiled files")
+    compiled = [layout.venv / "lib", layout.root / "src"]
+    # Some packages bring files for other Pythons, which this one cannot compile.
+    running.quiet([layout.python, "-m", "compileall", "-qq", "-j", "0", *compiled], environ)
     _stamp(layout).write_text(_fingerprint(layout), encoding="utf-8")

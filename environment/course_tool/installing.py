@@ -7,22 +7,19 @@ where every other Python would find them, and do not work in a folder with a spa
 
 from __future__ import annotations
 
-import ast
 import json
 import os
 import re
 import shlex
 import shutil
-from collections.abc import Mapping
+import subprocess
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from course_tool import running, surroundings
+from course_tool import running
 from course_tool.layout import Layout
-from course_tool.problems import installer_stopped, say
+from course_tool.problems import Problem, say
 
-_WORTH_SHOWING = re.compile(
-    r"^\s*(Downloading|Downloaded|Building|Built|Prepared|Uninstalled|Installed|Updated)\b"
-)
 # Runs at the start of every Python of the environment. `_rosbeat_environment` is a link to
 # src/rosbeat/environment.py: a broken `rosbeat` must not disturb, so the package is not imported.
 _AT_START = (
@@ -49,7 +46,6 @@ _PIP_TO_UV = {
     "proxy": ("ALL_PROXY", "HTTPS_PROXY", "https_proxy", "all_proxy"),
     "trusted-host": ("UV_INSECURE_HOST",),
 }
-_USUAL_INDEX = re.compile(r"^https://pypi\.org/simple/?$")
 
 
 def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
@@ -58,23 +54,47 @@ def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     Raises:
         Problem: If an installer stops.
     """
-    env = _for_pip(environ)
-    lock = layout.lock("bootstrap").read_text(encoding="utf-8")
-    (version,) = re.findall(r"^uv==(\S+)", lock, re.MULTILINE)
-    if not layout.uv.exists() or not (layout.uv_home / f"uv-{version}.dist-info").is_dir():
-        say("  2/4  fetching uv, the installer")
-        _fetch_uv(layout, env)
-    env = for_installers(layout, environ)
+    say("  2/4  fetching uv, the installer")
+    install(uv_command(layout), _for_pip(environ))
     lock = layout.lock(level).read_text(encoding="utf-8")
     count = len(re.findall(r"^[\w.-]+==", lock, re.MULTILINE))
     say(f"  3/4  installing what {level}.lock lists ({count} packages at most)")
+    env = for_installers(layout, environ)
     for command in (lock_command(layout, level), own_command(layout)):
-        result = running.stream(command, env, _WORTH_SHOWING.match)
-        if not result.ok:
-            raise installer_stopped(result.text, layout.venv)
+        install(command, env)
     write_start_hook(layout)
     write_lab_defaults(layout)
     write_underlay(layout, environ)
+
+
+def install(
+    command: Sequence[str | Path], environ: Mapping[str, str], cwd: Path | None = None
+) -> None:
+    """Run an installer, which tells itself what it does, and why it stops.
+
+    Raises:
+        Problem: If it stops.
+    """
+    done = subprocess.run(command, env=dict(environ), cwd=cwd, check=False)
+    if done.returncode != 0:
+        raise Problem(
+            "The installer stopped; its own message is above.",
+            "The environment is not complete yet; nothing of yours is touched.",
+            "Run the same command again: it goes on where it stopped.\n"
+            "The first start fetches about 200 packages (250 MB), and needs 1.5 GB of disk.\n"
+            "Behind a proxy, set HTTPS_PROXY, and SSL_CERT_FILE if it has its own certificates.\n"
+            "With an index of your own, set UV_DEFAULT_INDEX and PIP_INDEX_URL.\n"
+            "No wheel for this platform: ROS 2 needs glibc 2.28; try ./environment/container\n"
+            "If it stops again, remove the folder .venv and run the command once more.",
+        )
+
+
+def uv_command(layout: Layout) -> list[str | Path]:
+    """Return the command that installs uv with pip, if its locked version is not there yet."""
+    return [
+        *(layout.python, "-I", "-m", "pip", "install", "--quiet", "--require-hashes"),
+        *("--only-binary", ":all:", "-r", layout.lock("bootstrap")),
+    ]
 
 
 def lock_command(layout: Layout, level: str) -> list[str | Path]:
@@ -111,17 +131,12 @@ def pip_settings(listing: str, environ: Mapping[str, str]) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for section in ("global", "install", ":env:"):  # the closer ones count
-        for key, text in re.findall(rf"^{section}\.([a-z-]+)=(.*)$", listing, re.MULTILINE):
-            try:
-                found[key] = " ".join(str(ast.literal_eval(text)).split())
-            except (ValueError, SyntaxError):
-                found[key] = text
+        for key, text in re.findall(rf"^{section}\.([a-z-]+)='(.*)'$", listing, re.MULTILINE):
+            found[key] = " ".join(text.replace("\\n", " ").split())
     return {
         names[0]: found[key]
         for key, names in _PIP_TO_UV.items()
-        if key in found
-        and not any(environ.get(name) for name in names)
-        and not _USUAL_INDEX.match(found[key])
+        if key in found and not any(environ.get(name) for name in names)
     }
 
 
@@ -135,19 +150,6 @@ def for_installers(layout: Layout, environ: Mapping[str, str]) -> dict[str, str]
 def _for_pip(environ: Mapping[str, str]) -> dict[str, str]:
     # pip's own default is five tries; without a network that only delays the message.
     return {"PIP_RETRIES": "2", **environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_USER": "0"}
-
-
-def _fetch_uv(layout: Layout, env: Mapping[str, str]) -> None:
-    shutil.rmtree(layout.uv_home, ignore_errors=True)
-    command: list[str | Path] = [
-        *(layout.python, "-I", "-m", "pip", "install", "--quiet", "--require-hashes"),
-        *("--only-binary", ":all:", "--target", layout.uv_home),
-        *("-r", layout.lock("bootstrap")),
-    ]
-    result = running.quiet(command, env)
-    if not result.ok:
-        shutil.rmtree(layout.uv_home, ignore_errors=True)
-        raise installer_stopped(result.text, layout.venv)
 
 
 # What is ours.
@@ -212,7 +214,7 @@ def write_underlay(layout: Layout, environ: Mapping[str, str]) -> None:
             (layout.venv / name).write_text(text, encoding="utf-8", errors="surrogateescape")
     # Each command is asked once how bash completes it: at the start of a shell that takes too long.
     layout.completions.mkdir(parents=True, exist_ok=True)
-    inside = surroundings.inside(environ, layout)
+    inside = running.inside(environ, layout)
     for name, (program, *arguments) in _COMPLETIONS.items():
         answer = running.quiet([layout.venv / "bin" / program, *arguments], inside, timeout=60)
         if answer.ok:

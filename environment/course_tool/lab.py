@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 from course_tool import commands, folder, prepare, running
 from course_tool.hub import bring_fonts
 from course_tool.layout import Layout
-from course_tool.problems import Problem, say
+from course_tool.problems import Problem, last_lines, say
 
 _TERMINALS = "--ServerApp.terminado_settings"
 _FOLDERS = ("--ServerApp.root_dir", "--ServerApp.notebook_dir", "--notebook-dir")
@@ -24,7 +24,6 @@ _FOLDERS = ("--ServerApp.root_dir", "--ServerApp.notebook_dir", "--notebook-dir"
 _STYLE = Path(__file__).parents[1] / "lab_style"
 #: Seconds that JupyterLab gets to end its kernels and terminals.
 _ENDING = 30.0
-_LAST_LINES = 12
 
 
 def lab(layout: Layout, options: Sequence[str]) -> int:
@@ -62,7 +61,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
             start_new_session=True,
         )
     try:
-        info = _when_open(server, Path(runtime))
+        info = when_open(server, Path(runtime))
         if info:
             say(f"The course is open at  {address(layout, info, options)}")
             say(f"Ctrl+C stops it. JupyterLab's messages go to {shown}")
@@ -80,7 +79,14 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     if code == 0:
         say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
         return 0
-    raise stopped(log.read_text(errors="replace"), bool(info), shown)
+    raise Problem(
+        "JupyterLab ended by itself." if info else "JupyterLab ended before it was open.",
+        "The pages cannot be used any more; what you saved is there.",
+        "If you gave it options, look whether they are right:  ./environment/course lab --help\n"
+        "Otherwise start it again:  ./environment/course lab\n"
+        f"If it ends again, ./environment/course doctor may tell why. All messages are in {shown}",
+        last_lines(log.read_text(errors="replace")),
+    )
 
 
 def prepare_image(layout: Layout, arguments: Sequence[str]) -> int:
@@ -190,32 +196,7 @@ def end(server: subprocess.Popen[bytes]) -> None:
         server.wait()
 
 
-def stopped(messages: str, was_open: bool, log: str) -> Problem:
-    """Return the problem of a JupyterLab that ended by itself.
-
-    Args:
-        messages: All that it wrote.
-        was_open: Whether pages could be opened before.
-        log: The file of its messages.
-    """
-    last = "\n".join(messages.strip().splitlines()[-_LAST_LINES:])
-    if was_open:
-        return Problem(
-            "JupyterLab has ended by itself.",
-            "The pages cannot be used any more; what you saved is there.",
-            f"Start it again:  ./environment/course lab\nAll of its messages are in {log}",
-            last,
-        )
-    return Problem(
-        "JupyterLab ended before it was open.",
-        "No page can be shown; your files are as they were.",
-        "If you gave it options, look whether they are right:  ./environment/course lab --help\n"
-        f"Otherwise ./environment/course doctor may tell more. All messages are in {log}",
-        last,
-    )
-
-
-def _when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
+def when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
     """Wait until the server listens; return what it says of itself, nothing if it ended."""
     file = runtime / f"jpserver-{server.pid}.json"
     while server.poll() is None:

@@ -51,14 +51,9 @@ class Layout:
         return self.venv / "bin" / "python"
 
     @property
-    def uv_home(self) -> Path:
-        """Return a place of uv's own, so that installing from the lock does not remove it."""
-        return self.venv / ".uv"
-
-    @property
     def uv(self) -> Path:
         """Return the installer."""
-        return self.uv_home / "bin" / "uv"
+        return self.venv / "bin" / "uv"
 
     @property
     def stamp(self) -> Path:

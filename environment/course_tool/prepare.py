@@ -1,4 +1,4 @@
-"""Brings `.venv` to where a command needs it; does nothing when it is there already.
+"""Bring `.venv` to where a command needs it; do nothing when it is there already.
 
 Python's own venv module makes `.venv`, `installing` fills it, and a node has to hear another one.
 The stamp, written last, says that all of this was done, and from what.
@@ -13,23 +13,17 @@ import json
 import os
 import platform
 import shutil
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from course_tool import installing, running, surroundings
+from course_tool import installing, running
 from course_tool.layout import LEVELS, Layout
-from course_tool.problems import (
-    Problem,
-    Untouched,
-    disk_full,
-    installer_stopped,
-    say,
-    venv_module_missing,
-)
+from course_tool.problems import Problem, last_lines, say
 
 GIGABYTE = 10**9
 FIRST_TIME = 1.5 * GIGABYTE
@@ -37,11 +31,8 @@ FIRST_TIME = 1.5 * GIGABYTE
 REFRESH = 0.3 * GIGABYTE
 
 #: To be raised when this tool lays out an environment in another way.
-_REVISION = "4"
-# Without `site`, so that nothing installed in the environment has a say.
-_WHO = "import sys; print('%d.%d' % sys.version_info[:2], sys.base_prefix)"
+_REVISION = "5"
 _ROS_DEADLINE = 60.0
-_WRONG_MIDDLEWARE = 102
 
 
 def ready(layout: Layout, level: str) -> dict[str, str]:
@@ -50,7 +41,7 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
     Raises:
         Problem: If it cannot be made, filled, or no message arrives in it.
     """
-    clean = surroundings.cleaned(os.environ, layout)
+    clean = running.cleaned(os.environ, layout)
     if not is_satisfied(layout, level):
         check_writable(layout.root)
         check_space(layout.root, REFRESH if layout.uv.exists() else FIRST_TIME)
@@ -58,39 +49,26 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
             # Perhaps the command that was here before us did it.
             if not is_satisfied(layout, level):
                 _complete(layout, at_least(layout, level), clean.environ)
-        clean = surroundings.cleaned(os.environ, layout)
+        clean = running.cleaned(os.environ, layout)
     for note in clean.notes:
         say(note)
-    return surroundings.inside(clean.environ, layout)
+    return running.inside(clean.environ, layout)
 
 
 def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
-    say(_heading(layout))
-    make_or_keep(layout, environ)
-    before = layout.stamp.read_bytes() if layout.stamp.exists() else None
-    layout.stamp.unlink(missing_ok=True)
-    try:
-        installing.fill(layout, level, environ)
-        say("  4/4  listening for a first ROS message")
-        # Cleaned again: what this ROS offers is known only now that it is installed.
-        fresh = surroundings.cleaned(os.environ, layout).environ
-        heard = ask_ros(layout, surroundings.inside(fresh, layout))
-    except Untouched:
-        # Whoever is offline keeps an environment that works, instead of having it made again.
-        if before:
-            layout.stamp.write_bytes(before)
-        raise
+    python = f"Python {platform.python_version()}"
+    if is_usable(layout):
+        say(f"Something changed since .venv was made; refreshing it with {python}.")
+    else:
+        say(f"Preparing .venv with {python}. The first time takes about a minute and 1.5 GB.")
+        make(layout, environ)
+    installing.fill(layout, level, environ)
+    say("  4/4  listening for a first ROS message")
+    # Cleaned again: what this ROS offers is known only now that it is installed.
+    fresh = running.cleaned(os.environ, layout).environ
+    heard = ask_ros(layout, running.inside(fresh, layout))
     say(f"       heard after {heard['milliseconds']:.0f} ms (rclpy {heard['rclpy']})")
     write_stamp(layout, level)
-
-
-def _heading(layout: Layout) -> str:
-    python = f"Python {platform.python_version()}"
-    if layout.stamp.exists():
-        return f"Something changed since .venv was made; refreshing it with {python}."
-    if layout.venv.exists():
-        return f"Completing .venv with {python}."
-    return f"Preparing .venv with {python}. The first time takes about a minute and 1.5 GB."
 
 
 # What must hold before anything is installed.
@@ -111,8 +89,12 @@ def check_space(folder: Path, needed: float) -> None:
     """Refuse to start what the disk cannot hold: `needed` bytes."""
     free = shutil.disk_usage(folder).free
     if free < needed:
-        figures = f"{free / GIGABYTE:.1f} GB free, {needed / GIGABYTE:.1f} needed"
-        raise disk_full(str(folder), figures)
+        raise Problem(
+            f"There is not enough room on the disk for {folder} ({free / GIGABYTE:.1f} GB free, "
+            f"{needed / GIGABYTE:.1f} needed).",
+            "ROS 2, JupyterLab and the installer's cache take about 1.5 GB the first time.",
+            "Free some space and run the same command again.",
+        )
 
 
 @contextmanager
@@ -126,10 +108,7 @@ def exclusive(folder: Path) -> Iterator[None]:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            say(
-                "Another command of the course is at work in this folder; "
-                "waiting until it is done ..."
-            )
+            say("Another command of the course works in this folder; waiting until it is done ...")
             fcntl.flock(descriptor, fcntl.LOCK_EX)
         except OSError:
             pass  # a file system without such locks (some network drives): go on without
@@ -141,65 +120,43 @@ def exclusive(folder: Path) -> Iterator[None]:
 # The virtual environment itself.
 
 
-def make_or_keep(layout: Layout, environ: Mapping[str, str]) -> None:
-    """Leave a usable `.venv` as it is; make it, or make it again, otherwise."""
-    reason = why_unusable(layout, environ)
-    if reason is None:
-        return
-    if not all(importlib.util.find_spec(name) for name in ("venv", "ensurepip")):
-        raise venv_module_missing()
-    if os.path.lexists(layout.venv):
-        say(f"  .venv {reason}; it is made again")
-        _remove(layout.venv)
+def make(layout: Layout, environ: Mapping[str, str]) -> None:
+    """Make an empty `.venv`, in the place of one that cannot be used."""
     say("  1/4  making .venv")
-    made = running.quiet([sys.executable, "-I", "-m", "venv", layout.venv], environ)
-    if not made.ok:
-        is_debian = "ensurepip" in made.text
-        raise venv_module_missing() if is_debian else installer_stopped(made.text, layout.venv)
+    command = [sys.executable, "-I", "-m", "venv", "--clear", str(layout.venv)]
+    is_whole = all(importlib.util.find_spec(name) for name in ("venv", "ensurepip"))
+    if not is_whole or subprocess.run(command, env=dict(environ), check=False).returncode != 0:
+        version = "{}.{}".format(*sys.version_info[:2])
+        raise Problem(
+            f"Python {version} is here ({sys.executable}), but its venv module made no .venv.",
+            "The course keeps everything it installs in .venv and needs that module to make it.",
+            f"On Debian or Ubuntu, it is a package:  sudo apt install python{version}-venv\n"
+            "Then run the same command again.",
+        )
 
 
-def why_unusable(layout: Layout, environ: Mapping[str, str]) -> str | None:
-    """Return why a `.venv` cannot be used, as the end of a sentence, or None if it can.
+def is_usable(layout: Layout) -> bool:
+    """Tell whether `.venv` was once complete, for this Python and in this place.
 
     One without a stamp was interrupted. Which of its packages are whole cannot be told, and from
     the installer's cache a new one takes seconds.
     """
-    if not os.path.lexists(layout.python) or not layout.stamp.exists():
-        return "is not finished"
-    who = running.quiet([layout.python, "-I", "-S", "-c", _WHO], environ, timeout=30)
-    if not who.ok:
-        return "has a Python that does not run"
-    version, _, base = who.text.strip().partition(" ")
-    is_same = os.path.realpath(base) == os.path.realpath(sys.base_prefix)
-    if not is_same or version != "{}.{}".format(*sys.version_info[:2]):
-        return f"belongs to another Python ({version}, {base})"
-    script = layout.venv / "bin" / "activate"
-    text = script.read_text(encoding="utf-8", errors="replace") if script.exists() else ""
-    return None if str(layout.venv) in text else "was made in another place"
+    return os.access(layout.python, os.X_OK) and _stamp(layout).get("made_for") == _here(layout)
 
 
-def _remove(venv: Path) -> None:
-    """Remove `.venv`; of a link, only the link."""
-    if venv.is_symlink() or venv.is_file():
-        venv.unlink()
-    else:
-        shutil.rmtree(venv)
+def _here(layout: Layout) -> list[str]:
+    version = "{}.{}".format(*sys.version_info[:2])
+    return [version, os.path.realpath(sys.base_prefix), str(layout.venv)]
 
 
 # The stamp.
 
 
 def fingerprint(layout: Layout, level: str) -> str:
-    """Return a hash of everything that a level's environment depends on.
-
-    The place is part of it: a moved environment still names its old one in its scripts.
-    """
-    digest = hashlib.sha256()
-    version = "{}.{}".format(*sys.version_info[:2])
-    for text in (_REVISION, level, version, str(layout.venv)):
-        digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
+    """Return a hash of everything that a level's environment is made from."""
+    digest = hashlib.sha256(f"{_REVISION} {level}".encode())
     projects = [folder / "pyproject.toml" for folder in layout.own_packages]
-    locks = [layout.lock(level), layout.lock("build")]
+    locks = [layout.lock(level), layout.lock("build"), layout.lock("bootstrap")]
     for path in [*locks, *projects, *installing.underlay_templates()]:
         digest.update((path.read_bytes() if path.exists() else b"") + b"\0")
     return digest.hexdigest()
@@ -217,28 +174,29 @@ def at_least(layout: Layout, level: str) -> str:
 
 def is_satisfied(layout: Layout, level: str) -> bool:
     """Tell whether the environment is complete, fresh and good for a level."""
-    stamp = _stamp(layout)
-    if not stamp or not os.access(layout.python, os.X_OK):
+    made = stamped_level(layout)
+    if made is None or not is_usable(layout) or LEVELS.index(made) < LEVELS.index(level):
         return False
-    enough = LEVELS.index(stamp["level"]) >= LEVELS.index(level)
-    return enough and stamp["fingerprint"] == fingerprint(layout, stamp["level"])
+    return bool(_stamp(layout)["fingerprint"] == fingerprint(layout, made))
 
 
 def write_stamp(layout: Layout, level: str) -> None:
     """Say that the environment is complete: the whole stamp, or nothing."""
     unfinished = layout.stamp.with_suffix(".new")
-    stamp = {"level": level, "fingerprint": fingerprint(layout, level)}
+    stamp = {
+        "level": level,
+        "fingerprint": fingerprint(layout, level),
+        "made_for": _here(layout),
+    }
     unfinished.write_text(json.dumps(stamp) + "\n", encoding="utf-8")
     unfinished.replace(layout.stamp)
 
 
-def _stamp(layout: Layout) -> dict[str, str]:
+def _stamp(layout: Layout) -> dict[str, Any]:
     """Return the stamp, empty when there is none that can be read."""
-    try:
-        data = json.loads(layout.stamp.read_text(encoding="utf-8"))
-        return data if data["level"] in LEVELS and data["fingerprint"] else {}
-    except (OSError, ValueError, KeyError, TypeError):
-        return {}
+    with suppress(OSError, ValueError):
+        return dict(json.loads(layout.stamp.read_text(encoding="utf-8")))
+    return {}
 
 
 # ROS, asked in a process of its own, with a deadline.
@@ -252,17 +210,15 @@ def ask_ros(layout: Layout, environ: Mapping[str, str]) -> dict[str, Any]:
     """
     script = Path(__file__).with_name("ros_check.py")
     result = running.quiet([layout.python, script], environ, timeout=_ROS_DEADLINE)
-    facts = _facts(result.last_line) if result.ok else {}
-    if not facts:
-        cure = "Remove the folder .venv and run the same command again."
-        if result.code == _WRONG_MIDDLEWARE:
-            cure = "Unset RMW_IMPLEMENTATION: this ROS brings rmw_fastrtps_cpp."
+    if not result.ok:
         raise Problem(
             "ROS 2 is installed in .venv, but a first node does not start.",
             "No page of the course would run, so it is not opened.",
-            cure + "\nIf it stays like this, send the lines below to the course's issue tracker.",
-            "\n".join(result.text.strip().splitlines()[-12:]),
+            "Remove the folder .venv and run the same command again.\n"
+            "If it stays like this, send the lines below to the course's issue tracker.",
+            last_lines(result.text),
         )
+    facts: dict[str, Any] = json.loads(result.last_line)
     if facts["milliseconds"] is None:
         raise Problem(
             "A first node publishes, and a subscriber in the same process hears nothing.",
@@ -272,11 +228,3 @@ def ask_ros(layout: Layout, environ: Mapping[str, str]) -> dict[str, Any]:
             "loopback interface is up:  ip link show lo",
         )
     return facts
-
-
-def _facts(line: str) -> dict[str, Any]:
-    try:
-        facts = json.loads(line)
-    except ValueError:
-        return {}
-    return facts if isinstance(facts, dict) else {}

@@ -22,8 +22,8 @@ NAME = "03_write_a_publisher.ipynb"
 TOOL = """\
 import os, sys
 sys.path.insert(0, {environment!r})
-from course_tool import cli, prepare, surroundings
-prepare.ready = lambda layout, level: surroundings.inside(dict(os.environ), layout)
+from course_tool import cli, prepare, running
+prepare.ready = lambda layout, level: running.inside(dict(os.environ), layout)
 sys.exit(cli.main(["lab", *sys.argv[1:]]))
 """
 OPTIONS = (

@@ -52,9 +52,8 @@ def test_an_unknown_word_gets_the_list(capsys):
         (Problem("a", "b", "c,\nor d", "first\nlast\n"), 1,
          "\nWhat happened:       a\nWhat it means here:  b\nWhat to try:         c,\n"
          "                     or d\n\nIts last words:\n    first\n    last\n\n"),
-        (OSError(errno.ENOSPC, "no", "/some/file"), 1, "not enough room"),
-        (OSError(errno.EACCES, "no", "/some/file"), 1, "Nothing can be written"),
-        (OSError(errno.EROFS, "no", "/some/file"), 1, "Nothing can be written"),
+        (OSError(errno.ENOSPC, "full", "/file"), 1, "/file cannot be read or written (full)."),
+        (OSError(errno.EACCES, "no", "/some/file"), 1, 'sudo chown -R "$USER" '),
         (OSError(errno.EIO, "no", "/some/file"), 1, "does not know"),
         (RuntimeError("oh"), 1, "RuntimeError: oh"),  # and never a bare traceback
         (KeyboardInterrupt(), 130, ""),
@@ -66,16 +65,6 @@ def test_whatever_goes_wrong_is_said_in_three_parts(monkeypatch, capsys, error, 
     assert words in err
     assert ("What happened:" in err) == ("What to try:" in err) == bool(words)
     assert bool(out) != bool(err)
-
-
-def test_a_learners_folder_that_another_user_made(layout, monkeypatch, capsys):
-    monkeypatch.setattr(cli, "of_this_checkout", lambda: layout)
-    place = str(layout.learner / "03_write.ipynb")
-    assert run(monkeypatch, PermissionError(errno.EACCES, "no", place)) == 1
-    err = capsys.readouterr().err
-    assert f"{place} cannot be read or written (Permission denied)" in err
-    assert f"sudo chown -R \"$USER\" '{layout.learner}'" in err
-    assert "Clone" not in err
 
 
 def test_a_reader_that_has_read_enough_is_no_fault_of_the_course():

@@ -11,77 +11,40 @@ import pytest
 
 from course_tool import installing, running
 from course_tool.installing import pip_settings
-from course_tool.problems import Problem, Untouched, installer_stopped
+from course_tool.problems import Problem
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def flat(command):
-    return " ".join(str(part) for part in command)
+def test_pip_installs_uv_and_uv_everything_else(made, monkeypatch):
+    """Into this environment, whatever other ones are active, and from files with known hashes."""
+    made.lock("course").write_text("a==1\nb==2\n")
+    ran, environs = [], []
 
+    def run(command, env, cwd, check):
+        ran.append([str(part) for part in command])
+        environs.append(env)
+        return subprocess.CompletedProcess(command, 0)
 
-def test_uv_is_fetched_once(made, monkeypatch):
-    runs = []
-
-    def quiet(command, env, timeout=None):
-        runs.append(flat(command))
-        if "--target" in map(str, command):
-            made.uv.parent.mkdir(parents=True)
-            made.uv.touch()
-            (made.uv_home / "uv-1.2.3.dist-info").mkdir()
-        return running.Result(0, "")
-
-    monkeypatch.setattr(running, "quiet", quiet)
-    monkeypatch.setattr(running, "stream", lambda *args: running.Result(0, ""))
-    for _ in range(2):
-        installing.fill(made, "course", {})
-    fetches = [run for run in runs if "--target" in run]
-    assert len(fetches) == 1
-    assert "--require-hashes" in fetches[0]
-    assert fetches[0].endswith(f"-r {made.lock('bootstrap')}")
-
-
-def test_without_a_network_uv_is_not_half_there(made, monkeypatch):
-    made.uv_home.mkdir()
-    text = "ERROR: No matching distribution found for uv==1.2.3"
-    monkeypatch.setattr(running, "quiet", lambda command, env: running.Result(1, text))
-    with pytest.raises(Untouched, match="cannot be reached"):
-        installing.fill(made, "course", {})
-    assert not made.uv_home.exists()
-
-
-def test_a_disk_that_fills_while_installing(made, monkeypatch):
-    monkeypatch.setattr(running, "quiet", lambda command, env: running.Result(0, ""))
-    text = "error: failed to copy file: No space left on device (os error 28)"
-    monkeypatch.setattr(running, "stream", lambda *args: running.Result(2, text))
-    with pytest.raises(Problem, match="not enough room"):
-        installing.fill(made, "course", {})
-
-
-def test_uv_is_told_which_python_whatever_other_environments_are_active(made, monkeypatch):
-    seen, commands = {}, []
-
-    def stream(command, env, shown):
-        seen.update(env)
-        commands.append(command)
-        return running.Result(0, "")
-
-    monkeypatch.setattr(running, "quiet", lambda command, env, **_: running.Result(0, ""))
-    monkeypatch.setattr(running, "stream", stream)
+    monkeypatch.setattr(running, "quiet", lambda *given, **more: running.Result(True, CLOSER))
+    monkeypatch.setattr(installing.subprocess, "run", run)
     installing.fill(made, "course", {"UV_INDEX": "mine"})
-    assert seen["UV_INDEX"] == "mine"
-    assert len(commands) == 2
-    for command in commands:  # the option counts more than UV_PYTHON and VIRTUAL_ENV
-        assert command[command.index("--python") + 1] == made.python
+    pip, locked, own = ran
+    assert pip[0] == str(made.python)
+    assert {"--require-hashes", str(made.lock("bootstrap"))} < set(pip)
+    assert {"--require-hashes", str(made.lock("course")), str(made.lock("build"))} < set(locked)
+    assert {"--offline", *map(str, made.own_packages)} < set(own)
+    for command, env in zip((locked, own), environs[1:], strict=True):
+        # The option counts more than UV_PYTHON and VIRTUAL_ENV.
+        assert command[command.index("--python") + 1] == str(made.python)
+        assert (env["UV_INDEX"], env[INDEX]) == ("mine", "https://three.example")
 
 
-def test_progress_shows_what_is_fetched_and_not_every_name():
-    shown = installing._WORTH_SHOWING.match
-    assert shown("Downloading numpy (16.1MiB)")
-    assert shown("   Building empy==3.3.4")
-    assert shown("Installed 188 packages in 606ms")
-    assert not shown(" + numpy==2.4.6")
-    assert not shown("warning: Failed to hardlink files; falling back to full copy.")
+def test_an_installer_that_stops_is_said_in_three_parts():
+    with pytest.raises(Problem, match="The installer stopped") as caught:
+        installing.install([sys.executable, "-c", "import sys; sys.exit(1)"], os.environ)
+    for words in ("HTTPS_PROXY", "1.5 GB of disk", "./environment/container", "remove the folder"):
+        assert words in caught.value.cure
 
 
 @pytest.fixture
@@ -177,7 +140,6 @@ global.trusted-host='\\none.example\\ntwo.example'
 @pytest.mark.parametrize(
     ("listing", "environ", "found"),
     [
-        ("global.index-url='https://pypi.org/simple'\n", {}, {}),
         ("global.index-url='https://my.example/simple'\n", {}, {INDEX: "https://my.example/simple"}),
         (CLOSER, {}, {INDEX: "https://three.example"}),
         # What was said to uv itself stays.
@@ -191,68 +153,6 @@ global.trusted-host='\\none.example\\ntwo.example'
 )  # fmt: skip
 def test_what_a_person_told_pip_is_told_to_uv(listing, environ, found):
     assert pip_settings(listing, environ) == found
-
-
-# What installers say when they stop.
-
-PLACE = Path("/home/ada/course/.venv")
-
-# Lines as pip and uv print them.
-NETWORK = [
-    "error: Failed to fetch: `https://example.invalid/simple/anyio/`\n  Caused by: dns error",
-    "Temporary failure in name resolution')': /simple/uv/",
-    "ERROR: No matching distribution found for uv==0.13.9",
-    "error: Request failed\n  Caused by: operation timed out",
-    "  Caused by: tcp connect error: Connection refused (os error 111)",
-]
-DISK = [
-    "ERROR: Could not install packages due to an OSError: [Errno 28] No space left on device",
-    "error: failed to write to file: No space left on device (os error 28)",
-    "Caused by: Disk quota exceeded (os error 122)",
-]
-CERTIFICATE = [
-    "Caused by: invalid peer certificate: UnknownIssuer",
-    "SSLCertVerificationError(1, '[SSL: CERTIFICATE_VERIFY_FAILED] certificate verify failed",
-]
-HASH = [
-    "error: Hash mismatch for `anyio==4.16.0`",
-    "ERROR: THESE PACKAGES DO NOT MATCH THE HASHES FROM THE REQUIREMENTS FILE.",
-]
-PERMISSION = ["error: failed to create directory `/home/ada/.cache/uv`: Permission denied"]
-PLATFORM = ["  x Because numpy has no wheels with a matching platform tag (e.g., `manylinux_2_17`)"]
-BUILD = ["  x Failed to build `rosbeat @ file:///home/ada/course`\n  The build backend returned"]
-
-
-def kinds():
-    for texts, words in (
-        (NETWORK, "cannot be reached"),
-        (DISK, "not enough room"),
-        (CERTIFICATE, "does not trust"),
-        (HASH, "not the one the course was locked to"),
-        (PERMISSION, "may not write"),
-        (BUILD, "could not be built"),
-        (PLATFORM, "does not come ready-made for this Linux"),
-    ):
-        yield from ((text, words) for text in texts)
-    both = "error: Failed to fetch: `anyio`\n  Caused by: No space left on device (os error 28)"
-    yield both, "not enough room"
-
-
-@pytest.mark.parametrize(("text", "words"), list(kinds()))
-def test_last_words_are_understood(text, words):
-    problem = installer_stopped(text, PLACE)
-    assert words in problem.happened
-    # What fails before anything changes leaves an environment as it was.
-    assert isinstance(problem, Untouched) == (text in [*NETWORK, *CERTIFICATE, *HASH, *BUILD])
-    assert problem.means
-    assert problem.cure
-    assert problem.details == "\n".join(text.strip().splitlines())
-
-
-def test_an_unknown_end_says_so_and_shows_the_last_lines():
-    problem = installer_stopped("\n".join(f"line {n}" for n in range(100)), PLACE)
-    assert "does not know the reason" in problem.happened
-    assert problem.details.splitlines() == [f"line {n}" for n in range(88, 100)]
 
 
 # The underlay.
@@ -296,7 +196,8 @@ def suffix(shell):
 @pytest.mark.parametrize("name", ["setup", "local_setup"])
 def test_sourcing_activates_ros_in_a_bare_shell(prefix, shell, name):
     """And no other Python sees the packages of this one."""
-    environ = sourced(shell, prefix / f"{name}.{suffix(shell)}")
+    file = prefix / f"{name}.{suffix(shell)}"
+    environ = sourced(shell, file, file)  # twice is once
     assert environ["PATH"] == f"{prefix}/bin:{os.defpath}"
     assert environ["AMENT_PREFIX_PATH"] == str(prefix)
     assert environ["ROS_DISTRO"] == "jazzy"
@@ -321,12 +222,6 @@ def test_what_a_person_set_stays(prefix, theirs, found):
         assert environ[name] == value.replace("VENV", str(prefix))
 
 
-@pytest.mark.parametrize("shell", SHELLS)
-def test_sourcing_twice_is_sourcing_once(prefix, shell):
-    file = prefix / f"setup.{suffix(shell)}"
-    assert sourced(shell, file) == sourced(shell, file, file)
-
-
 def test_nothing_stays_behind_in_the_shell(prefix):
     names = "{ compgen -v; compgen -A function; } | grep rosbeat || :"
     done = subprocess.run(
@@ -344,7 +239,7 @@ def test_completion_is_asked_for_once_and_read_by_bash(made, prefix, monkeypatch
 
     def quiet(command, env, timeout):
         asked.append(Path(command[0]).name)
-        return running.Result(0, f"complete -W 'run topic' {asked[-1]}\n")
+        return running.Result(True, f"complete -W 'run topic' {asked[-1]}\n")
 
     monkeypatch.setattr(running, "quiet", quiet)
     installing.write_underlay(made, BARE)
@@ -358,8 +253,3 @@ def test_completion_is_asked_for_once_and_read_by_bash(made, prefix, monkeypatch
         check=True,
     )
     assert done.stderr == "complete -W 'run topic' ros2\n"
-
-
-def test_every_mark_is_filled_in(prefix):
-    for file in prefix.glob("*setup.*"):
-        assert "@" not in file.read_text()

@@ -194,14 +194,6 @@ def test_a_server_that_dies_later_is_told_too(start):
     assert process.returncode == 1
 
 
-def test_a_folder_nobody_may_write_in_is_told(start, made, tmp_path):
-    (made.root / "my_course").write_text("in the way")
-    process = start(OPENS)
-    said = process.communicate(timeout=100)[1]
-    assert "What happened:       my_course is not a folder: it is a file, or a link" in said
-    assert "What to try:" in said
-
-
 # For the images of containers.
 
 

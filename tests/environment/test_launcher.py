@@ -37,7 +37,7 @@ class Machine:
         self.bin.mkdir(parents=True)
         (self.root / "environment").mkdir(parents=True)
         shutil.copy(ROOT / "environment" / "course", self.root / "environment")
-        for tool in ("bash", "uname", "sed", "head", "dirname", "readlink"):
+        for tool in ("bash", "uname", "sed", "dirname", "readlink"):
             found = shutil.which(tool)
             assert found
             (self.bin / tool).symlink_to(found)
@@ -81,25 +81,14 @@ def test_hands_over_with_the_arguments_untouched(machine: Machine):
     assert done.returncode == 0
 
 
-def test_a_link_to_the_command_works(machine: Machine, tmp_path: Path):
-    machine.has("python3", (3, 11))
+def test_a_link_to_the_command_works_and_standard_input_reaches_it(
+    machine: Machine, tmp_path: Path
+):
+    script(machine.bin / "python3", '[ "$2" = -c ] && echo fits || exec sed s/^/heard:/')
     link = tmp_path / "link"
     link.symlink_to(machine.root / "environment" / "course")
     done = subprocess.run(
-        [machine.bin / "bash", link, "doctor"],
-        env={"PATH": str(machine.bin)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    tool = machine.root / "environment" / "course_tool"
-    assert done.stdout == f"python3 runs: -I {tool} doctor\n"
-
-
-def test_standard_input_reaches_the_command(machine: Machine):
-    script(machine.bin / "python3", '[ "$2" = -c ] && echo "fits 3.11" || exec sed s/^/heard:/')
-    done = subprocess.run(
-        [machine.bin / "bash", machine.root / "environment" / "course", "shell"],
+        [machine.bin / "bash", link, "shell"],
         env={"PATH": str(machine.bin)},
         input="hello\n",
         capture_output=True,
@@ -109,28 +98,19 @@ def test_standard_input_reaches_the_command(machine: Machine):
     assert done.stdout == "heard:hello\n"
 
 
-@pytest.mark.parametrize("version", [(3, 10), (3, 11), (3, 12), (3, 13)])
-def test_every_python_of_the_course_fits(machine: Machine, version: tuple[int, int]):
-    machine.has("python3", version)
-    assert machine.course("lab").returncode == 0
-
-
-OTHER = 'echo "other 3.11 (PyPy, not the ordinary 64-bit CPython)"'
+OTHER = 'echo "3.11.9 (PyPy), not the ordinary 64-bit CPython"'
 
 
 @pytest.mark.parametrize(
     ("prepare", "chosen", "words"),
     [
-        (lambda one: one.has("python3", (3, 8)), "", "too old: Python 3.8."),
-        (lambda one: one.has("python3", (3, 14)), "", "too new: Python 3.14."),
         (lambda one: (one.has("python3", (3, 14)), one.has("python", (3, 9))), "",
-         "None of the Pythons on this machine fits: Python 3.14, Python 3.9."),
-        (lambda one: None, "", "There is no Python on this machine"),
-        (lambda one: script(one.bin / "python3", "exit 127"), "", "There is no Python on this"),
-        (lambda one: script(one.bin / "python3", OTHER), "", "Python 3.11 (PyPy"),
+         "No Python on this machine fits: python3 is Python 3.14, python is Python 3.9."),
+        (lambda one: script(one.bin / "python3", "exit 127"), "", "Python on this machine fits."),
+        (lambda one: script(one.bin / "python3", OTHER), "", "python3 is 3.11.9 (PyPy)"),
         # A choice that does not fit is not passed over.
-        (lambda one: one.has("mine", (3, 9)), "mine", "ROSBEAT_PYTHON names Python 3.9, which is"),
-        (lambda one: one.has("mine", (3, 14)), "mine", "names Python 3.14, which is too new."),
+        (lambda one: (one.has("mine", (3, 9)), one.has("python3", (3, 12))), "mine",
+         "/mine is Python 3.9."),
         (lambda one: one.has("python3", (3, 12)), "nowhere", "does not run as a Python"),
         # Other machines.
         *((lambda one, kind=kind: one.is_a(*kind), "", f"This machine is {kind[0]} on {kind[1]}.")
@@ -155,11 +135,10 @@ def test_an_unfit_python3_is_passed_over(machine: Machine):
 
 def test_the_python_behind_venv_comes_first(machine: Machine, tmp_path: Path):
     machine.has("python3", (3, 13))
-    home = tmp_path / "some where"
-    machine.has("python3.10", (3, 10), home)
-    config = machine.root / ".venv" / "pyvenv.cfg"
-    config.parent.mkdir()
-    config.write_text(f"home = {home}\nversion = 3.10.13\n")
+    behind = machine.has("python3.10", (3, 10), tmp_path / "some where")
+    link = machine.root / ".venv" / "bin" / "python"
+    link.parent.mkdir(parents=True)
+    link.symlink_to(behind)
     assert machine.course("lab").stdout.startswith("python3.10 runs:")
 
 

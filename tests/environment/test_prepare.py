@@ -12,7 +12,7 @@ import pytest
 
 from course_tool import installing, prepare, running
 from course_tool.layout import Layout
-from course_tool.problems import Problem, Untouched
+from course_tool.problems import Problem
 
 
 @pytest.fixture
@@ -20,7 +20,7 @@ def work(made, monkeypatch):
     """What preparing does, as a list of words, without doing it."""
     done = []
     monkeypatch.setattr(prepare, "check_space", lambda folder, needed: done.append("check"))
-    monkeypatch.setattr(prepare, "make_or_keep", lambda layout, environ: done.append("venv"))
+    monkeypatch.setattr(prepare, "make", lambda layout, environ: done.append("venv"))
     monkeypatch.setattr(installing, "fill", lambda layout, level, environ: done.append(level))
 
     def ask_ros(layout, environ):
@@ -29,13 +29,6 @@ def work(made, monkeypatch):
 
     monkeypatch.setattr(prepare, "ask_ros", ask_ros)
     return done
-
-
-def fails(problem):
-    def fill(layout, level, environ):
-        raise problem
-
-    return fill
 
 
 def test_everything_is_done_in_order_and_the_stamp_comes_last(made, work):
@@ -58,7 +51,7 @@ def test_a_refresh_keeps_the_tools_for_tests(made, work):
     del work[:]
     made.lock("test").write_text("newer\n")
     prepare.ready(made, "course")
-    assert work == ["check", "venv", "test", "listen"]
+    assert work == ["check", "test", "listen"]
 
 
 def test_what_another_command_has_just_done_is_not_done_again(made, work, monkeypatch):
@@ -71,29 +64,31 @@ def test_what_another_command_has_just_done_is_not_done_again(made, work, monkey
     assert work == ["check"]
 
 
-def test_an_interrupted_one_has_no_stamp(made, work, monkeypatch):
-    prepare.write_stamp(made, "course")
-    made.lock("course").write_text("newer\n")
-    monkeypatch.setattr(installing, "fill", fails(KeyboardInterrupt()))
+@pytest.mark.parametrize("was_complete", [True, False])
+def test_an_interruption_is_made_good_next_time(made, work, monkeypatch, was_complete):
+    """Whoever is offline keeps an environment that works; one that never did is made again."""
+    if was_complete:
+        prepare.write_stamp(made, "course")
+        made.lock("course").write_text("newer\n")
+
+    def stop(layout, level, environ):
+        raise KeyboardInterrupt
+
+    fill = installing.fill
+    monkeypatch.setattr(installing, "fill", stop)
     with pytest.raises(KeyboardInterrupt):
         prepare.ready(made, "course")
-    assert not made.stamp.exists()
-
-
-def test_offline_the_old_environment_is_not_lost(made, work, monkeypatch):
-    prepare.write_stamp(made, "course")
-    before = made.stamp.read_text()
-    made.lock("course").write_text("newer\n")
-    monkeypatch.setattr(installing, "fill", fails(Untouched("network", "", "")))
-    with pytest.raises(Untouched):
-        prepare.ready(made, "course")
-    assert made.stamp.read_text() == before
+    monkeypatch.setattr(installing, "fill", fill)
+    assert prepare.is_usable(made) == was_complete
     assert not prepare.is_satisfied(made, "course")
-
-
-def test_the_first_time_is_announced(layout, made, work, capsys):
+    del work[:]
     prepare.ready(made, "course")
-    assert "Completing .venv" in capsys.readouterr().out
+    assert work == ["check", *(["venv"] if not was_complete else []), "course", "listen"]
+
+
+def test_the_first_time_is_announced(made, work, capsys):
+    prepare.ready(made, "course")
+    assert "Preparing .venv" in capsys.readouterr().out
     made.lock("course").write_text("newer\n")
     prepare.ready(made, "course")
     assert "Something changed" in capsys.readouterr().out
@@ -111,7 +106,7 @@ def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missi
         importlib.util, "find_spec", lambda name: None if name == missing else find(name)
     )
     with pytest.raises(Problem) as caught:
-        prepare.make_or_keep(layout, ENV)
+        prepare.make(layout, os.environ)
     assert f"sudo apt install python{HERE}-venv" in caught.value.cure
 
 
@@ -156,99 +151,48 @@ def test_a_second_command_waits_and_says_so(tmp_path, monkeypatch):
 
 # The virtual environment.
 
-ENV = {"PATH": os.defpath}
+
+@pytest.mark.parametrize("code", [0, 1])
+def test_a_new_one_takes_the_place_of_the_old(layout, monkeypatch, code):
+    ran = []
+
+    def run(command, env, check):
+        ran.append(command)
+        return subprocess.CompletedProcess(command, code)
+
+    monkeypatch.setattr(prepare.subprocess, "run", run)
+    with nullcontext() if code == 0 else pytest.raises(Problem, match=r"made no \.venv"):
+        prepare.make(layout, os.environ)
+    assert ran == [[sys.executable, "-I", "-m", "venv", "--clear", str(layout.venv)]]
 
 
-@pytest.fixture
-def finished(made):
+@pytest.mark.parametrize(
+    "harm",
+    [
+        lambda layout, monkeypatch: layout.stamp.unlink(),
+        lambda layout, monkeypatch: layout.stamp.write_text("{"),
+        lambda layout, monkeypatch: layout.python.unlink(),
+        lambda layout, monkeypatch: monkeypatch.setattr(sys, "version_info", (3, 9, 0)),
+        lambda layout, monkeypatch: monkeypatch.setattr(sys, "base_prefix", "/elsewhere"),
+    ],
+    ids=["no stamp", "torn stamp", "no python", "other version", "other place of Python"],
+)
+def test_one_that_cannot_be_used(made, monkeypatch, harm):
     prepare.write_stamp(made, "course")
-    return made
+    assert prepare.is_usable(made)
+    harm(made, monkeypatch)
+    assert not prepare.is_usable(made)
+    assert not prepare.is_satisfied(made, "course")
 
 
-@pytest.fixture
-def runs(monkeypatch):
-    """How often Python's venv module was run, which is not really done."""
-    seen, quiet = [], running.quiet
-
-    def run(command, env, timeout=None):
-        if "venv" not in command:
-            return quiet(command, env, timeout)
-        seen.append("make")
-        return running.Result(0, "")
-
-    monkeypatch.setattr(running, "quiet", run)
-    return seen
-
-
-def answers(layout, text):
-    layout.python.write_text(f"#!/bin/sh\n{text}\n")
-
-
-def test_none_is_made(layout, runs, capsys):
-    prepare.make_or_keep(layout, ENV)
-    assert runs == ["make"]
-    assert "again" not in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("harm", "reason"),
-    [
-        (lambda layout: layout.stamp.unlink(), "is not finished"),
-        (lambda layout: layout.python.unlink(), "is not finished"),
-        (lambda layout: answers(layout, "exit 1"), "has a Python that does not run"),
-        (lambda layout: answers(layout, "echo 3.9 /usr"), "belongs to another Python (3.9, /usr)"),
-        (
-            lambda layout: answers(layout, "echo {}.{} /elsewhere".format(*sys.version_info[:2])),
-            "belongs to another Python",
-        ),
-    ],
-    ids=["no stamp", "no python", "broken python", "other version", "other place of Python"],
-)
-def test_an_unusable_one_is_made_again(finished, runs, capsys, harm, reason):
-    harm(finished)
-    prepare.make_or_keep(finished, ENV)
-    assert runs == ["make"]
-    assert f".venv {reason}" in capsys.readouterr().out
-    assert not finished.venv.exists()
-
-
-def test_a_moved_one_is_made_again(finished, tmp_path, runs, capsys):
+def test_a_moved_one_cannot_be_used(made, tmp_path):
+    prepare.write_stamp(made, "course")
     there = Layout(tmp_path / "elsewhere")
-    shutil.move(finished.root, there.root)
-    prepare.make_or_keep(there, ENV)
-    assert runs == ["make"]
-    assert "was made in another place" in capsys.readouterr().out
-
-
-def test_of_a_link_only_the_link_is_removed(layout, tmp_path, runs):
-    (tmp_path / "precious").mkdir()
-    layout.venv.symlink_to(tmp_path / "precious")
-    prepare.make_or_keep(layout, ENV)
-    assert (tmp_path / "precious").is_dir()
-    assert not os.path.lexists(layout.venv)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("The virtual environment was not created: ensurepip is not available.", "venv module"),
-        ("Error: [Errno 28] No space left on device", "not enough room"),
-        ("something else", "does not know the reason"),
-    ],
-)
-def test_what_pythons_own_module_says_is_understood(layout, monkeypatch, text, words):
-    monkeypatch.setattr(running, "quiet", lambda command, env: running.Result(1, text))
-    with pytest.raises(Problem, match=words):
-        prepare.make_or_keep(layout, ENV)
+    shutil.move(made.root, there.root)
+    assert not prepare.is_usable(there)
 
 
 # The stamp.
-
-
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"level": "gold", "fingerprint": "x"}'])
-def test_a_stamp_that_cannot_be_read_is_none(made, text):
-    made.stamp.write_text(text)
-    assert prepare.stamped_level(made) is None
 
 
 @pytest.mark.parametrize(
@@ -256,6 +200,7 @@ def test_a_stamp_that_cannot_be_read_is_none(made, text):
     [
         "environment/course.lock",
         "environment/build.lock",
+        "environment/bootstrap.lock",
         "pyproject.toml",
         "src/ros2_command/pyproject.toml",
     ],
@@ -276,32 +221,17 @@ def test_an_environment_for_tests_serves_learners_too(made):
 # A first message.
 
 
-def answer(layout, monkeypatch, code, text):
-    monkeypatch.setattr(running, "quiet", lambda command, env, timeout: running.Result(code, text))
+def answer(layout, monkeypatch, ok, text):
+    monkeypatch.setattr(running, "quiet", lambda command, env, timeout: running.Result(ok, text))
     return prepare.ask_ros(layout, {})
 
 
-@pytest.mark.parametrize(
-    ("code", "text"),
-    [
-        (1, "Traceback\nImportError: librcl.so"),
-        (124, "It did not end within 60 s."),
-        (0, ""),
-        (0, "3"),
-    ],
-)
-def test_a_ros_that_does_not_start(layout, monkeypatch, code, text):
+def test_a_ros_that_does_not_start(layout, monkeypatch):
     with pytest.raises(Problem, match="does not start") as caught:
-        answer(layout, monkeypatch, code, text)
-    assert caught.value.details == text
-
-
-def test_a_wrong_middleware_is_named(layout, monkeypatch):
-    with pytest.raises(Problem) as caught:
-        answer(layout, monkeypatch, 102, "")
-    assert "RMW_IMPLEMENTATION" in caught.value.cure
+        answer(layout, monkeypatch, False, "Traceback\nImportError: librcl.so")
+    assert caught.value.details == "Traceback\nImportError: librcl.so"
 
 
 def test_a_message_that_never_comes(layout, monkeypatch):
     with pytest.raises(Problem, match="hears nothing"):
-        answer(layout, monkeypatch, 0, '{"milliseconds": null}')
+        answer(layout, monkeypatch, True, '{"milliseconds": null}')

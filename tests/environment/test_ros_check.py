@@ -33,7 +33,6 @@ def test_a_node_hears_another():
     pytest.importorskip("rclpy")
     facts = run(str(CHECK))
     assert facts["milliseconds"] is not None
-    assert facts["field_checks"] is True
     assert facts["rmw"] == "rmw_fastrtps_cpp"
     assert facts["environ"]["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
 
@@ -45,4 +44,5 @@ def test_a_plain_python_has_what_nodes_need_before_any_import():
     found = run("-c", code)
     assert 1 <= int(found["ROS_DOMAIN_ID"]) <= 50
     assert found["AMENT_PREFIX_PATH"] == sys.prefix
+    assert found["ROS_PYTHON_CHECK_FIELDS"] == "1"
     assert run("-c", code, ROS_DOMAIN_ID="77")["ROS_DOMAIN_ID"] == "77"

@@ -1,38 +1,132 @@
+"""The programs that the tool starts, and the environment that they get."""
+
 import os
 import sys
 
+import pytest
+
 from course_tool import running
 
-ENV = dict(os.environ)
+
+@pytest.fixture
+def robot(tmp_path):
+    """A ROS of the system, outside /opt."""
+    prefix = tmp_path / "robot" / "humble"
+    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "rclpy").touch()
+    return str(prefix)
 
 
-def python(code):
-    return [sys.executable, "-I", "-S", "-c", code]
+def test_an_ordinary_environment_stays_as_it_is(layout):
+    environ = {"PATH": "/usr/bin", "PYTHONPATH": "/home/ada/lib", "ROS_DOMAIN_ID": "7", "LANG": "C"}
+    clean = running.cleaned(environ, layout)
+    assert clean.environ == environ
+    assert clean.other_ros == ()
+    assert clean.notes == ()
 
 
-def test_interesting_lines_are_shown_and_all_are_kept(capsys):
-    result = running.stream(
-        python("print('Downloading a'); print(' + a==1')"), ENV, lambda line: "Down" in line
+@pytest.mark.parametrize(
+    ("environ", "kept"),
+    [
+        # Traces of another environment's Python go.
+        ({"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", "PYTHONHOME": "/usr"}, {}),
+        # A middleware that is not there would end every node at once.
+        ({"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}, {}),
+        ({"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}, {"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}),
+        # A folder with a similar name is another folder.
+        ({"AMENT_PREFIX_PATH": "ROBOT", "PATH": "ROBOT-tools/bin"}, {"PATH": "ROBOT-tools/bin"}),
+    ],
+)
+def test_what_would_disturb_is_left_out(made, robot, environ, kept):
+    (made.venv / "lib" / "librmw_fastrtps_cpp.so").touch()
+    given, left = (
+        {name: value.replace("ROBOT", robot) for name, value in one.items()}
+        for one in (environ, kept)
     )
-    assert result.ok
-    assert result.text == "Downloading a\n + a==1\n"
-    assert capsys.readouterr().out == "      Downloading a\n"
+    clean = running.cleaned(given, made)
+    assert clean.environ == left
+    is_replaced = "RMW_IMPLEMENTATION" in given and not left
+    assert ["is not part of this ROS" in note for note in clean.notes] == [True] * is_replaced or (
+        clean.other_ros
+    )
 
 
-def test_what_goes_to_standard_error_is_kept_too():
-    result = running.stream(python("import sys; sys.exit('no')"), ENV, bool)
-    assert (result.code, result.text) == (1, "no\n")
+def test_a_sourced_ros_is_left_out_and_the_rest_stays(layout):
+    clean = running.cleaned(
+        {
+            "AMENT_PREFIX_PATH": "/opt/ros/humble",
+            "CMAKE_PREFIX_PATH": "/opt/ros/humble:/home/ada/cmake",
+            "LD_LIBRARY_PATH": "/opt/ros/humble/opt/x/lib:/opt/ros/humble/lib:/usr/local/cuda/lib",
+            "PATH": "/opt/ros/humble/bin:/usr/bin",
+            "PYTHONPATH": "/opt/ros/humble/lib/python3.10/site-packages",
+            "ROS_DISTRO": "humble",
+            "ROS_VERSION": "2",
+            "ROS_PYTHON_VERSION": "3",
+            "ROS_DOMAIN_ID": "7",
+        },
+        layout,
+    )
+    assert clean.environ == {
+        "CMAKE_PREFIX_PATH": "/home/ada/cmake",
+        "LD_LIBRARY_PATH": "/usr/local/cuda/lib",
+        "PATH": "/usr/bin",
+        "ROS_DOMAIN_ID": "7",
+    }
+    assert clean.other_ros == ("/opt/ros/humble",)
+    assert "/opt/ros/humble" in clean.notes[0]
+    assert ".venv" in clean.notes[0]
 
 
-def test_a_quiet_program():
-    result = running.quiet(python("print('hello')"), ENV)
-    assert (result.ok, result.text) == (True, "hello\n")
+def test_workspaces_on_top_of_it_go_with_it(layout, robot):
+    workspace = "/home/ada/ros2_ws/install/arm"
+    clean = running.cleaned(
+        {
+            "AMENT_PREFIX_PATH": f"{workspace}:{robot}",
+            "PYTHONPATH": f"{workspace}/lib/python3.10/site-packages:/home/ada/lib",
+        },
+        layout,
+    )
+    assert clean.environ == {"PYTHONPATH": "/home/ada/lib"}
+    assert set(clean.other_ros) == {workspace, robot}
 
 
-def test_a_program_that_never_ends():
-    result = running.quiet(python("import time; time.sleep(60)"), ENV, timeout=0.2)
-    assert result.code == 124
+def test_workspaces_of_the_course_stay(layout, robot):
+    own = str(layout.root / "my_ws" / "install" / "sensor_simulator")
+    path = os.pathsep.join([own, robot, str(layout.venv)])
+    clean = running.cleaned({"AMENT_PREFIX_PATH": path}, layout)
+    assert clean.environ["AMENT_PREFIX_PATH"] == os.pathsep.join([own, str(layout.venv)])
+
+
+def test_inside_the_venv_comes_first_once(layout):
+    first = str(layout.venv / "bin")
+    active = running.inside({"PATH": f"/usr/bin:{first}:/bin"}, layout)
+    assert active["PATH"] == f"{first}:/usr/bin:/bin"
+    assert active["VIRTUAL_ENV"] == str(layout.venv)
+    assert active["JUPYTER_PREFER_ENV_PATH"] == "1"
+
+
+def test_ros_is_set_from_the_courses_own_defaults(layout):
+    complete = running.with_ros({"A": "b"}, layout)
+    assert complete["A"] == "b"
+    assert complete["AMENT_PREFIX_PATH"] == str(layout.venv)
+    assert complete["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
+
+
+@pytest.mark.parametrize(
+    ("code", "ok", "text"),
+    [
+        ("print('hello')", True, "hello\n"),
+        ("import sys; sys.exit('no')", False, "no\n"),  # errors are kept, too
+        ("import time; time.sleep(60)", False, "timed out"),
+    ],
+)
+def test_a_quiet_program(code, ok, text):
+    command = [sys.executable, "-I", "-S", "-c", code]
+    result = running.quiet(command, os.environ, timeout=0.5 if "sleep" in code else None)
+    assert result.ok is ok
+    assert text in result.text
 
 
 def test_a_program_that_is_not_there():
-    assert running.quiet(["/nowhere/program"], ENV).code == 127
+    assert not running.quiet(["/nowhere/program"], {}).ok

@@ -6,14 +6,13 @@ import os
 import re
 import subprocess
 import sys
-import time
 import urllib.request
 from pathlib import Path
 
 import pytest
 from tornado.websocket import websocket_connect
 
-from course_tool import commands, lab, layout, surroundings
+from course_tool import commands, lab, layout, running
 from rosbeat.environment import learners_folder
 
 LAYOUT = layout.of_this_checkout()
@@ -44,7 +43,7 @@ def environ(tmp_path):
         program.write_text("#!/bin/sh\necho wrong\n")
         program.chmod(0o755)
     plain = {"HOME": str(tmp_path), "PATH": os.defpath, "TERM": "dumb"}
-    return commands.for_shells(surroundings.inside(plain, LAYOUT), LAYOUT)
+    return commands.for_shells(running.inside(plain, LAYOUT), LAYOUT)
 
 
 def typed(text, environ, folder=LAYOUT.root):
@@ -108,10 +107,10 @@ def test_sourcing_the_underlay_in_a_bare_bash_is_enough():
 
 @pytest.fixture
 def server(environ, tmp_path):
-    """The address of a JupyterLab that was started as `course lab` starts it."""
-    options = ["--no-browser", "--ServerApp.port=0", f"--IdentityProvider.token={TOKEN}"]
-    options += [f"--ServerApp.root_dir={LAYOUT.root}"]
-    command = lab.lab_command(LAYOUT, options, root_user=os.geteuid() == 0)
+    """The address of a Jupyter server with the options of `course lab`."""
+    options = [f"--IdentityProvider.token={TOKEN}", f"--ServerApp.root_dir={LAYOUT.root}"]
+    command = [LAYOUT.python, "-m", "jupyter_server", "--no-browser", "--ServerApp.port=0"]
+    command += lab.lab_options(LAYOUT, options, root_user=os.geteuid() == 0)
     folders = {
         f"JUPYTER_{name}_DIR": str(tmp_path / name) for name in ("RUNTIME", "CONFIG", "DATA")
     }
@@ -120,30 +119,10 @@ def server(environ, tmp_path):
             command, env={**environ, **folders}, cwd=LAYOUT.root, stdout=log, stderr=log
         )
         try:
-            yield address(tmp_path / "RUNTIME", process)
+            yield lab.when_open(process, tmp_path / "RUNTIME")["url"]
         finally:
             process.terminate()
             process.wait(timeout=30)
-
-
-def address(folder, process):
-    deadline = time.monotonic() + 150
-    while time.monotonic() < deadline and process.poll() is None:
-        for file in folder.glob("jpserver-*.json"):
-            found = re.search(r'"url": "([^"]+)"', file.read_text())
-            if found and answers(found[1]):
-                return found[1]
-        time.sleep(0.05)
-    raise AssertionError("JupyterLab did not start")
-
-
-def answers(server):
-    """Whether the server listens; it says where before it does."""
-    try:
-        with urllib.request.urlopen(f"{server}api", timeout=10) as answer:
-            return answer.status == 200
-    except OSError:
-        return False
 
 
 async def typed_in_lab(server, text, until):
@@ -166,7 +145,6 @@ async def typed_in_lab(server, text, until):
     return shown
 
 
-@pytest.mark.timeout(300)  # a whole JupyterLab has to start
 def test_a_terminal_of_jupyterlab_is_the_courses_shell(server, tmp_path):
     asking = typed_in_lab(server, ASK.replace("\n", "\r"), r"<[^\n]*> <jazzy> <[^\n]*>")
     shown = asyncio.run(asyncio.wait_for(asking, 100))

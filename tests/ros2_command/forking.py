@@ -100,11 +100,10 @@ def prepare():
     """Import what commands import, and start nothing."""
     for name in IMPORTED:
         import_module(name)
-    from ros2_command.registry import COMMANDS, load
+    from ros2_command.registry import COMMANDS, verbs_of
 
-    for command, about in COMMANDS.items():
-        for verb in about.verbs or [None]:
-            load(command, verb)
+    for command in COMMANDS:
+        verbs_of(command)
 
 
 if __name__ == "__main__":

@@ -10,8 +10,13 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parents[2] / "src" / "ros2_command"
 sys.path.insert(0, str(SOURCE))
 
-from ros2_command.parser import LeftOut  # noqa: E402
-from ros2_command.registry import COMMANDS, LEFT_OUT, load  # noqa: E402
+from ros2_command.registry import (  # noqa: E402
+    COMMANDS,
+    LEFT_OUT,
+    LEFT_OUT_VERBS,
+    LeftOut,
+    verbs_of,
+)
 
 _DIRECT = "--spin-time --use-sim-time"
 _GRAPH = f"{_DIRECT} --no-daemon"
@@ -88,7 +93,7 @@ UPSTREAM = {
 def options(command, verb):
     """The long options of a verb here, each with whether it is refused."""
     parser = ArgumentParser(add_help=False)
-    load(command, verb).add_arguments(parser)
+    verbs_of(command)[verb].add_arguments(parser)
     return {
         name: isinstance(action, LeftOut)
         for action in parser._actions for name in action.option_strings if name.startswith("--")
@@ -98,7 +103,7 @@ def options(command, verb):
 def verbs():
     """Every command and verb that is here, as two words or one."""
     return [
-        (command, verb) for command, about in COMMANDS.items() for verb in about.verbs or [None]
+        (command, verb) for command in COMMANDS for verb in verbs_of(command)
         if command != "completion"
     ]  # fmt: skip
 
@@ -112,8 +117,8 @@ def table():
         here = [one for one in UPSTREAM[name].split() if not known[one]]
         refused = [one for one in UPSTREAM[name].split() if known[one]]
         lines.append(f"| `{name}` | {_cells(here)} | {_cells(refused)} |")
-    for command, about in COMMANDS.items():
-        lines += [f"| `{command} {verb}` | | the verb |" for verb in about.left_out]
+    for command, verbs_left_out in LEFT_OUT_VERBS.items():
+        lines += [f"| `{command} {verb}` | | the verb |" for verb in verbs_left_out]
     lines += [f"| `{command}` | | the command |" for command in LEFT_OUT]
     return "\n".join(lines)
 

@@ -12,8 +12,7 @@ from io import TextIOWrapper
 from typing import NoReturn
 
 from ros2_command.errors import CommandError, UsageError
-from ros2_command.parser import build, words_of
-from ros2_command.registry import COMMANDS, load, what_is_left_out
+from ros2_command.registry import build, verbs_of, what_is_left_out, words_of
 
 INTERRUPTED = 2
 
@@ -27,18 +26,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         from ros2cli.cli import main as original
 
         return int(original(argv=argv) or 0)
-    _open_closed_streams()
     code = guarded(lambda: _run(list(sys.argv[1:] if argv is None else argv)))
     if argv is None and "rclpy" in sys.modules:
         _leave_at_once(code)
     return code
-
-
-def _open_closed_streams() -> None:
-    """Replace the None that Python has for a closed stream (`ros2 pkg list >&-`)."""
-    for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
 def _leave_at_once(code: int) -> NoReturn:
@@ -78,17 +69,9 @@ def guarded(action: Callable[[], int]) -> int:
 
 
 def _what_the_system_says(error: OSError) -> str:
-    if isinstance(error, FileNotFoundError) and not _has_folder():
+    if isinstance(error, FileNotFoundError) and not error.filename:  # from `os.getcwd`
         return "This terminal's current folder no longer exists.\nChange to another folder:  cd ~"
     return f"ros2: {error.strerror or error}" + (f": {error.filename}" if error.filename else "")
-
-
-def _has_folder() -> bool:
-    try:
-        os.getcwd()
-    except OSError:
-        return False
-    return True
 
 
 def _quietly(code: int) -> int:
@@ -109,11 +92,12 @@ def _run(argv: list[str]) -> int:
     if not args.use_python_default_buffering and isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)
     name, verb = args._command, getattr(args, "_verb", None)
-    if name is None or (COMMANDS[name].verbs and verb is None):
+    chosen = verbs_of(name).get(verb or "") if name else None
+    if chosen is None:
         args._parser.print_help()
         return 0
     try:
-        return int(load(name, verb).main(args) or 0)
+        return int(chosen.main(args) or 0)
     except UsageError as error:
         args._parser.print_usage(sys.stderr)
         raise CommandError(f"{args._parser.prog}: error: {error}", code=2) from None

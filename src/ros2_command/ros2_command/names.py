@@ -1,14 +1,40 @@
-"""Check names of nodes, topics and services, and suggest the name that was probably meant."""
+"""Check and look up the names of nodes, topics, services and types that people type.
+
+A name that is not there gets the nearest one as a suggestion.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+import sys
+from collections.abc import Callable, Iterable, Sequence
 from difflib import SequenceMatcher, get_close_matches
+from importlib import import_module
+from typing import TYPE_CHECKING
 
 from ros2_command.errors import CommandError
+from ros2_command.untyped import Untyped
+
+if TYPE_CHECKING:
+    from ros2_command.graph import Graph
 
 _PART = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+NOBODY = (
+    "Nothing with that name is visible from this terminal. Is the node running? Is ROS_DOMAIN_ID "
+    "the same?"
+)
+Entries = list[tuple[str, list[str]]]
+_EXAMPLES = {
+    "msg": "std_msgs/msg/Float32",
+    "srv": "std_srvs/srv/Trigger",
+    "action": "test_msgs/action/Fibonacci",
+}
+#: For each kind, its word, and what only its classes have.
+_KINDS = {
+    "msg": ("message", "get_fields_and_field_types"),
+    "srv": ("service", "Response"),
+    "action": ("action", "Goal"),
+}
 
 
 def is_hidden(name: str) -> bool:
@@ -90,3 +116,186 @@ def did_you_mean(word: str, names: Iterable[str], otherwise: str = "") -> str:
     """Return a line that suggests the nearest name, or another line if there is none."""
     name = nearest(word, names)
     return f"Did you mean '{name}'?" if name else otherwise
+
+
+def pick(typed: str, entries: Entries, complaint: str) -> tuple[str, list[str]]:
+    """Return the entry of a name, with or without its leading slash.
+
+    Args:
+        typed: The name as typed.
+        entries: Names with their types.
+        complaint: The first line of the error.
+
+    Raises:
+        CommandError: If there is none; the nearest name is suggested.
+    """
+    found = dict(entries)
+    name = absolute(typed)
+    if name not in found:
+        raise CommandError(complaint, suggestion(name, found))
+    return name, found[name]
+
+
+def of_type(entries: Entries, type_name: str, hidden: bool) -> list[str]:
+    """Return the names that have a type; hidden ones only if they are wanted."""
+    return [name for name, types in visible(entries, hidden) if type_name in types]
+
+
+def visible(entries: Entries, hidden: bool) -> Entries:
+    """Return the entries without those that are hidden, unless these are wanted, too."""
+    return [one for one in entries if hidden or not is_hidden(one[0])]
+
+
+def show_entries(entries: Entries, count: bool, types: bool) -> None:
+    """Print names, with their types if wanted, or only how many there are."""
+    if count:
+        print(len(entries))
+        return
+    for name, carried in entries:
+        print(f"{name} {show_types(carried)}" if types else name)
+
+
+def suggestion(name: str, names: Sequence[str] | dict[str, list[str]]) -> str:
+    """Return a line with the nearest name that is not hidden, or with what else could be wrong."""
+    return did_you_mean(name, [one for one in names if not is_hidden(one)], NOBODY)
+
+
+def show_types(types: Sequence[str]) -> str:
+    """Return types in brackets."""
+    return f"[{', '.join(types)}]"
+
+
+def find_type(name: str, kind: str) -> Untyped | None:
+    """Return the class of a type.
+
+    Args:
+        name: `pkg/msg/Name`, or `pkg/Name`.
+        kind: `msg`, `srv` or `action`, for the short form.
+
+    Returns:
+        The class, or None if there is none of that name.
+    """
+    parts = name.split("/")
+    if len(parts) == 2:
+        parts.insert(1, kind)
+    if len(parts) != 3 or not all(part.isidentifier() for part in parts):
+        return None
+    try:
+        module = import_module(f"{parts[0]}.{parts[1]}")
+    except ImportError:
+        return None
+    found = getattr(module, parts[2], None)
+    return found if isinstance(found, type) else None
+
+
+def full_type(name: str, kind: str) -> str:
+    """Return a type's name in its long form, `pkg/kind/Name`."""
+    parts = name.split("/")
+    return f"{parts[0]}/{kind}/{parts[-1]}"
+
+
+def type_class(name: str, kind: str) -> Untyped:
+    """Return the class of a message, service or action type.
+
+    Args:
+        name: `pkg/kind/Name`, or `pkg/Name`.
+        kind: `msg`, `srv` or `action`.
+
+    Raises:
+        CommandError: If there is none of that name, or it is of another kind.
+    """
+    word, mark = _KINDS[kind]
+    found = find_type(name, kind)
+    if found is not None and kind == "srv" and not hasattr(found, mark):
+        raise CommandError("The passed type is not a service", type_hint(name, kind))
+    if not hasattr(found, mark):
+        raise CommandError(f"The passed {word} type is invalid", type_hint(name, kind))
+    return found
+
+
+def type_hint(name: str, kind: str) -> str:
+    """Return a line with the nearest type of a kind, or with how a type is written."""
+    from ros2_command.packages import all_interfaces
+
+    how = f"A type is written like {_EXAMPLES[kind]}."
+    try:
+        names = [one.name for one in all_interfaces() if one.kind == kind]
+    except CommandError:
+        return how
+    return did_you_mean(name, names, how)
+
+
+def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
+    """Return the message class of a topic: the one that is given, or the one of the graph.
+
+    Raises:
+        CommandError: If it cannot be known, or does not exist, or nobody publishes it.
+    """
+    name = absolute(typed)
+    types = dict(graph.topics()).get(name, [])
+    if type_name is None:
+        if not types:
+            print(f"WARNING: topic [{typed}] does not appear to be published yet")
+            raise CommandError(
+                "Could not determine the type for the passed topic",
+                suggestion(name, dict(graph.topics())),
+            )
+        if len(types) > 1:
+            raise CommandError(
+                f"Cannot echo topic '{typed}', as it contains more than one type: "
+                f"{show_types(types)}",
+                "Give the type that you want after the topic.",
+            )
+        type_name = types[0]
+    found = type_class(type_name, "msg")
+    full = full_type(type_name, "msg")
+    if types and full not in types:
+        raise CommandError(
+            f"The topic '{typed}' carries {show_types(types)}, not {full}",
+            "Messages of another type are never received. Leave the type out, or correct it.",
+        )
+    return found
+
+
+def find_node(typed: str, nodes: Sequence[str], complaint: str) -> str:
+    """Return the full name of a node.
+
+    Raises:
+        CommandError: If there is none of that name; the nearest one is suggested.
+    """
+    name = absolute(typed)
+    if name not in nodes:
+        raise CommandError(complaint, suggestion(name, list(nodes)))
+    return name
+
+
+def wait_for_server(
+    graph: Graph, ready: Callable[[], bool], what: str, typed: str, asked: str,
+    entries: Callable[[], Entries],
+) -> None:  # fmt: skip
+    """Wait until somebody offers a service or an action; after a while say that nobody does.
+
+    Args:
+        graph: Where the client is.
+        ready: Whether a server is there.
+        what: `service` or `action`.
+        typed: Its name as typed.
+        asked: Its type, `pkg/kind/Name`.
+        entries: Tells the names and types of the graph.
+
+    Raises:
+        CommandError: If it is offered with another type.
+    """
+    graph.settle(ready)
+    if ready():
+        return
+    name = absolute(typed)
+    found = {one: types for one, types in entries() if types != [asked] or one != name}
+    if name in found:
+        others = [one for one in found[name] if one != asked]
+        raise CommandError(
+            f"The {what} '{name}' has the type {show_types(others)}, not {asked}",
+            "A request with another type is never answered.",
+        )
+    print(f"No node offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
+    graph.spin_until(ready)

@@ -1,27 +1,40 @@
-"""Implement `ros2 pkg create` for ament_python: check the arguments, and write the files."""
+"""Create an ament_python package: check what was asked for, and write the files.
+
+The files are those of `data/package`, with values in the place of their names.
+"""
 
 from __future__ import annotations
 
 import getpass
+import keyword
 import os
 import re
 import shlex
 import subprocess
 import sys
+import sysconfig
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
+from importlib.machinery import PathFinder
+from importlib.resources import files
 from pathlib import Path
+from string import Template
+from xml.sax.saxutils import escape
 
-from ros2_command import package_templates as templates
 from ros2_command.errors import CommandError
-from ros2_command.package_names import (
-    check_dependency,
-    check_email,
-    check_module_name,
-    check_package_name,
-    check_text,
+
+_DATA = files("ros2_command") / "data"
+_INDEX = "share/ament_index/resource_index/packages"
+#: The licenses of which the full text is known, in the order in which they are offered.
+LICENSES = (
+    *("Apache-2.0", "BSL-1.0", "BSD-2.0", "BSD-2-Clause", "BSD-3-Clause"),
+    *("GPL-3.0-only", "LGPL-3.0-only", "MIT", "MIT-0"),
 )
-from ros2_command.package_templates import LICENSES, NewPackage
+#: Without a full ROS 2, linters may be missing, and ament_copyright is on no registry at all: these
+#: tests are then skipped, where the original's imports at the top would end the whole run.
+_LINTER_TESTS = ("test_copyright.py", "test_flake8.py", "test_pep257.py")
+# XML 1.0 cannot hold these, and neither can a file in UTF-8 hold halves of characters.
+_UNWRITABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def create(args: Namespace) -> None:
@@ -33,22 +46,23 @@ def create(args: Namespace) -> None:
     if args.license == "?":
         print("\n".join(["Supported licenses:", *LICENSES]))
         return
-    destination, name = args.destination_directory, args.package_name
-    _check_place(Path(destination), name)
+    _check_place(Path(args.destination_directory), args.package_name)
     if args.build_type != "ament_python":
         raise CommandError(
             f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages, "
             "since ROS 2 from pip has no C++ libraries to build others with.",
             f"Try:  {_as_python_package(args._words)}",
         )
-    _announce(new := _asked_for(args), destination)
+    _check_names(args)
+    _complete(args)
+    _announce(args)
     try:
-        for folder_or_file, content in _files(new, destination):
-            _make(folder_or_file, content)
+        for path, content in _files(args):
+            _make(path, content)
     except OSError as error:
         raise CommandError(f"Failed to create {error.filename}: {error.strerror}") from None
-    if new.license not in LICENSES:
-        _warn_about_license(new.license)
+    if args.license not in LICENSES:
+        _warn_about_license(args.license)
 
 
 def _as_python_package(words: Sequence[str]) -> str:
@@ -86,23 +100,87 @@ def _check_place(destination: Path, name: str) -> None:
             )
 
 
-def _asked_for(args: Namespace) -> NewPackage:
-    check_package_name(args.package_name)
-    dependencies = list(dict.fromkeys(args.dependencies))
-    for one in dependencies:
-        check_dependency(one, args.package_name)
-    for kind, one in (("a node", args.node_name), ("a library", args.library_name)):
-        if one is not None:
-            check_module_name(kind, one)
-    for option in ("description", "license", "maintainer_name"):
-        check_text(option.replace("_", "-"), getattr(args, option) or "")
-    maintainer = args.maintainer_name or getpass.getuser()
-    email = args.maintainer_email or _default_email(maintainer)
-    check_email(email)
-    return NewPackage(
-        args.package_name, args.package_format, args.description, maintainer, email,
-        args.license, dependencies, _node_name(args), args.library_name,
-    )  # fmt: skip
+# The names.
+
+
+def _check_names(args: Namespace) -> None:
+    """Refuse what could not be imported or built, with a name that would work.
+
+    Raises:
+        CommandError: With the reason.
+    """
+    if args.package_name == "test":
+        raise CommandError(
+            "Aborted since 'ament_python' packages can't be named 'test'. "
+            "Please choose a different package name."
+        )
+    _refuse("a package", args.package_name, _why_no_package(args.package_name))
+    for kind, name in (("a node", args.node_name), ("a library", args.library_name)):
+        if name is not None:
+            reserved = "names that begin with two underscores are reserved for Python"
+            reason = _not_importable(name) or (reserved if name.startswith("__") else "")
+            _refuse(kind, name, reason)
+    if args.package_name in args.dependencies:
+        raise CommandError(f"Aborted! The package '{args.package_name}' cannot depend on itself.")
+    for option in ("description", "license", "maintainer_name", "maintainer_email"):
+        if _UNWRITABLE.search(text := getattr(args, option) or ""):
+            raise CommandError(
+                f"Aborted! The text of --{option.replace('_', '-')} contains characters that "
+                f"package.xml does not allow: {text!a}"
+            )
+
+
+def _why_no_package(name: str) -> str:
+    """Return why a package cannot have a name, or an empty string."""
+    if reason := _not_importable(name):
+        return reason
+    if name.startswith("_"):
+        return "a package's name begins with a letter"
+    if name in sys.stdlib_module_names:
+        return f"Python's standard library has a module '{name}', and one would hide the other"
+    installed = PathFinder.find_spec(name, [sysconfig.get_path("purelib")]) is not None
+    if installed or (Path(sys.prefix) / _INDEX / name).exists():
+        return f"'{name}' is already installed with ROS 2, and one would hide the other"
+    return ""
+
+
+def _not_importable(name: str) -> str:
+    """Return why Python cannot import a module of this name, or an empty string."""
+    if not name:
+        return "it is empty"
+    if "-" in name:
+        return "Python reads '-' as minus"
+    if keyword.iskeyword(name):
+        return f"'{name}' is a keyword of the Python language"
+    if not name.isascii():
+        return "only the letters a to z, digits and '_' are safe"
+    if not name.isidentifier():
+        return "it may contain only letters, digits and '_', and must not begin with a digit"
+    return ""
+
+
+def _refuse(kind: str, name: str, reason: str) -> None:
+    if reason:
+        tidy = re.sub(r"[^a-z0-9]+", "_", name.removesuffix(".py").lower()).strip("_")
+        is_better = tidy and tidy != name and not _not_importable(tidy)
+        raise CommandError(
+            f"Aborted! '{name}' cannot be the name of {kind}: {reason}.",
+            f"Try '{tidy}'." if is_better else "Choose another name.",
+        )
+
+
+# The files.
+
+
+def _complete(args: Namespace) -> None:
+    """Set what was not said, and a node name that is also the library's."""
+    args.dependencies = list(dict.fromkeys(args.dependencies))
+    args.maintainer_name = args.maintainer_name or getpass.getuser()
+    args.maintainer_email = args.maintainer_email or _default_email(args.maintainer_name)
+    if args.node_name is not None and args.node_name == args.library_name:
+        print("[WARNING] node name can not be equal to the library name", file=sys.stderr)
+        args.node_name = f"{args.node_name}_node"
+        print(f"[WARNING] renaming node to {args.node_name}", file=sys.stderr)
 
 
 def _default_email(maintainer: str) -> str:
@@ -115,55 +193,84 @@ def _default_email(maintainer: str) -> str:
     return email or re.sub(r"[^-\w%+]+", "_", maintainer, flags=re.ASCII) + "@todo.todo"
 
 
-def _node_name(args: Namespace) -> str | None:
-    name: str | None = args.node_name
-    if name is None or name != args.library_name:
-        return name
-    print("[WARNING] node name can not be equal to the library name", file=sys.stderr)
-    print(f"[WARNING] renaming node to {name}_node", file=sys.stderr)
-    return f"{name}_node"
-
-
-def _announce(new: NewPackage, destination: str) -> None:
+def _announce(args: Namespace) -> None:
     print("going to create a new package")
-    print("package name:", new.name)
-    print("destination directory:", os.path.abspath(destination))
-    print("package format:", new.package_format)
+    print("package name:", args.package_name)
+    print("destination directory:", os.path.abspath(args.destination_directory))
+    print("package format:", args.package_format)
     print("version: 0.0.0")
-    print("description:", new.description)
-    print("maintainer:", [f"{new.maintainer} <{new.email}>"])
-    print("licenses:", [new.license])
+    print("description:", args.description)
+    print("maintainer:", [f"{args.maintainer_name} <{args.maintainer_email}>"])
+    print("licenses:", [args.license])
     print("build type: ament_python")
-    print("dependencies:", list(new.dependencies))
-    if new.node:
-        print("node_name:", new.node)
-    if new.library:
-        print("library_name:", new.library)
+    print("dependencies:", args.dependencies)
+    if args.node_name:
+        print("node_name:", args.node_name)
+    if args.library_name:
+        print("library_name:", args.library_name)
 
 
-def _files(new: NewPackage, destination: str) -> Iterator[tuple[str, str | None]]:
+def _files(args: Namespace) -> Iterator[tuple[str, str | None]]:
     """Yield paths with their content in the order of making; None is a folder."""
-    root = os.path.join(destination, new.name)
-    source = os.path.join(root, new.name)
+    name, node, library = args.package_name, args.node_name, args.library_name
+    root = os.path.join(args.destination_directory, name)
+    source = os.path.join(root, name)
     yield root, None
-    yield os.path.join(root, "package.xml"), templates.package_xml(new)
-    if (text := templates.license_text(new.license)) is not None:
-        yield os.path.join(root, "LICENSE"), text
+    yield os.path.join(root, "package.xml"), _package_xml(args)
+    if args.license in LICENSES:
+        yield os.path.join(root, "LICENSE"), (_DATA / "licenses" / args.license).read_text("utf-8")
     print("creating source folder")
     yield source, None
-    yield os.path.join(root, "setup.py"), templates.setup_py(new)
-    yield os.path.join(root, "setup.cfg"), templates.setup_cfg(new)
+    yield os.path.join(root, "setup.py"), _setup_py(args)
+    yield os.path.join(root, "setup.cfg"), _filled("setup.cfg", name=name)
     yield os.path.join(root, "resource"), None
-    yield os.path.join(root, "resource", new.name), ""
+    yield os.path.join(root, "resource", name), ""
     yield os.path.join(source, "__init__.py"), ""
     yield os.path.join(root, "test"), None
-    for name, text in templates.linter_tests().items():
-        yield os.path.join(root, "test", name), text
-    if new.node:
-        yield os.path.join(source, f"{new.node}.py"), templates.node_py(new)
-    if new.library:
-        yield os.path.join(source, new.library), None
-        yield os.path.join(source, new.library, "__init__.py"), ""
+    for test in _LINTER_TESTS:
+        yield os.path.join(root, "test", test), _filled(test)
+    if node:
+        yield os.path.join(source, f"{node}.py"), _filled("node.py", name=name)
+    if library:
+        yield os.path.join(source, library), None
+        yield os.path.join(source, library, "__init__.py"), ""
+
+
+def _package_xml(args: Namespace) -> str:
+    depends = "".join(f"  <depend>{escape(one)}</depend>\n" for one in args.dependencies)
+    return _filled(
+        "package.xml",
+        format=args.package_format,
+        name=args.package_name,
+        description=escape(args.description),
+        maintainer=escape(args.maintainer_name),
+        email=escape(args.maintainer_email, {'"': "&quot;"}),
+        license=escape(args.license),
+        depends=f"{depends}\n" if depends else "",
+    )
+
+
+def _setup_py(args: Namespace) -> str:
+    """Return the build script, with texts as Python would show them, so quotes cannot break it.
+
+    What tests require is an extra, as in newer versions of the original. Jazzy's own writes
+    `tests_require`, which draws a warning from setuptools 72 and newer.
+    """
+    name, node = args.package_name, args.node_name
+    return _filled(
+        "setup.py",
+        name=name,
+        maintainer=repr(args.maintainer_name),
+        email=repr(args.maintainer_email),
+        description=repr(args.description),
+        license=repr(args.license),
+        scripts=f"            '{node} = {name}.{node}:main'\n" if node else "",
+    )
+
+
+def _filled(file: str, /, **values: object) -> str:
+    """Return a file of `data/package` with values in the place of its names."""
+    return Template((_DATA / "package" / f"{file}.in").read_text("utf-8")).substitute(values)
 
 
 def _make(path: str, content: str | None) -> None:

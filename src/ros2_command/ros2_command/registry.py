@@ -5,12 +5,15 @@ This module is imported before any other, so it imports neither ROS nor the verb
 
 from __future__ import annotations
 
+import argparse
+import re
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
-from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn
+
+from ros2_command.errors import CommandError
+from ros2_command.names import did_you_mean
 
 #: Declares one argument, or several that go together, to the parser of a verb.
 Argument = Callable[[ArgumentParser], object]
@@ -44,12 +47,15 @@ class Verb:
     a command has no verbs.
 
     Args:
+        about: One line for `--help`; nothing for a command without verbs, which `COMMANDS` has.
         main: Does it; an exit code, where there is one, is the command's.
         *arguments: Its arguments, in the order of `--help`.
     """
 
-    def __init__(self, main: Callable[[Namespace], int | None], *arguments: Argument) -> None:
-        self.main, self._arguments = main, arguments
+    def __init__(
+        self, about: str, main: Callable[[Namespace], int | None], *arguments: Argument
+    ) -> None:
+        self.about, self.main, self._arguments = about, main, arguments
 
     def add_arguments(self, parser: ArgumentParser) -> None:
         """Declare the arguments."""
@@ -57,112 +63,27 @@ class Verb:
             declare(parser)
 
 
-@dataclass(frozen=True)
-class Command:
-    """Describe a command of `ros2`.
-
-    Attributes:
-        about: One line for the list in `--help`.
-        verbs: The one-liner of each verb; empty for a command without verbs.
-        left_out: Verbs that the full ROS 2 has and this subset has not.
-    """
-
-    about: str
-    verbs: Mapping[str, str] = field(default_factory=dict)
-    left_out: tuple[str, ...] = ()
-
-
-COMMANDS: Mapping[str, Command] = MappingProxyType(
-    {
-        "action": Command(
-            "Various action related sub-commands",
-            {
-                "info": "Print information about an action",
-                "list": "Output a list of action names",
-                "send_goal": "Send an action goal",
-                "type": "Print a action's type",
-            },
-        ),
-        "bag": Command(
-            "Various rosbag related sub-commands",
-            {
-                "info": "Print information about a bag to the screen",
-                "play": "Play back ROS data from a bag",
-                "record": "Record ROS data to a bag",
-            },
-            left_out=("burst", "convert", "list", "reindex"),
-        ),
-        "completion": Command("Output what a shell needs to complete this command"),
-        "doctor": Command("Check ROS setup and other potential issues", left_out=("hello",)),
-        "interface": Command(
-            "Show information about ROS interfaces",
-            {
-                "list": "List all interface types available",
-                "package": "Output a list of available interface types within one package",
-                "packages": "Output a list of packages that provide interfaces",
-                "proto": "Output an interface prototype",
-                "show": "Output the interface definition",
-            },
-        ),
-        "node": Command(
-            "Various node related sub-commands",
-            {
-                "info": "Output information about a node",
-                "list": "Output a list of available nodes",
-            },
-        ),
-        "param": Command(
-            "Various param related sub-commands",
-            {
-                "delete": "Delete parameter",
-                "describe": "Show descriptive information about declared parameters",
-                "dump": "Show all of the parameters of a node in a YAML file format",
-                "get": "Get parameter",
-                "list": "Output a list of available parameters",
-                "load": "Load parameter file for a node",
-                "set": "Set parameter",
-            },
-        ),
-        "pkg": Command(
-            "Various package related sub-commands",
-            {
-                "create": "Create a new ROS 2 package",
-                "executables": "Output a list of package specific executables",
-                "list": "Output a list of available packages",
-                "prefix": "Output the prefix path of a package",
-                "xml": "Output the XML of the package manifest or a specific tag",
-            },
-        ),
-        "run": Command("Run a package specific executable"),
-        "service": Command(
-            "Various service related sub-commands",
-            {
-                "call": "Call a service",
-                "echo": "Echo a service",
-                "find": "Output a list of available services of a given type",
-                "info": "Print information about a service",
-                "list": "Output a list of available services",
-                "type": "Output a service's type",
-            },
-        ),
-        "topic": Command(
-            "Various topic related sub-commands",
-            {
-                "bw": "Display bandwidth used by topic",
-                "delay": "Display delay of topic from timestamp in header",
-                "echo": "Output messages from a topic",
-                "find": "Output a list of available topics of a given type",
-                "hz": "Print the average publishing rate to screen",
-                "info": "Print information about a topic",
-                "list": "Output a list of available topics",
-                "pub": "Publish a message to a topic",
-                "type": "Print a topic's type",
-            },
-        ),
-        "wtf": Command("Use `wtf` as alias to `doctor`", left_out=("hello",)),
-    }
-)
-
+#: Each command, with one line for `--help`.
+COMMANDS = {
+    "action": "Various action related sub-commands",
+    "bag": "Various rosbag related sub-commands",
+    "completion": "Output what a shell needs to complete this command",
+    "doctor": "Check ROS setup and other potential issues",
+    "interface": "Show information about ROS interfaces",
+    "node": "Various node related sub-commands",
+    "param": "Various param related sub-commands",
+    "pkg": "Various package related sub-commands",
+    "run": "Run a package specific executable",
+    "service": "Various service related sub-commands",
+    "topic": "Various topic related sub-commands",
+    "wtf": "Use `wtf` as alias to `doctor`",
+}
+#: Verbs that the full ROS 2 has and this subset has not.
+LEFT_OUT_VERBS = {
+    "bag": ("burst", "convert", "list", "reindex"),
+    "doctor": ("hello",),
+    "wtf": ("hello",),
+}
 #: Commands of the full ROS 2 that are not in this subset.
 LEFT_OUT = (
     *("component", "control", "daemon", "extension_points", "extensions", "launch", "lifecycle"),
@@ -173,23 +94,20 @@ WHERE_TO_GET_THE_WHOLE = (
     "  on Ubuntu: https://docs.ros.org/en/jazzy/Installation.html\n"
     "  with conda on Linux, macOS and Windows (RoboStack): https://robostack.github.io"
 )
-_SAME_MODULE = MappingProxyType({"wtf": "doctor"})
 
 
-def load(command: str, verb: str | None = None) -> Verb:
-    """Import a verb, or a command without verbs."""
-    module = import_module(f"ros2_command.verbs.{_SAME_MODULE.get(command, command)}")
-    found = module.VERBS[verb or ""]
-    assert isinstance(found, Verb)
-    return found
+def verbs_of(command: str) -> Mapping[str, Verb]:
+    """Import a command, and return its verbs; one of an empty name where it has none."""
+    name = "doctor" if command == "wtf" else command
+    verbs: Mapping[str, Verb] = import_module(f"ros2_command.verbs.{name}").VERBS
+    return verbs
 
 
 def what_is_left_out(command: str, verb: str | None = None) -> str | None:
     """Return what to say of a command or verb of the full ROS 2 only, None of another."""
-    known = COMMANDS.get(command)
-    if known is None and command in LEFT_OUT:
+    if command in LEFT_OUT:
         name = command
-    elif known is not None and verb in known.left_out:
+    elif verb in LEFT_OUT_VERBS.get(command, ()):
         name = f"{command} {verb}"
     else:
         return None
@@ -197,3 +115,120 @@ def what_is_left_out(command: str, verb: str | None = None) -> str | None:
         f"'ros2 {name}' is left out here: this `ros2` is a subset for ROS 2 installed with pip.\n"
         f"{WHERE_TO_GET_THE_WHOLE}"
     )
+
+
+# The parser. Only the module of the requested command is imported.
+
+_CHOICE = re.compile(r"invalid choice: '?(?P<word>.*?)'? \(choose from (?P<names>.*)\)")
+
+
+class Parser(argparse.ArgumentParser):
+    """Parse, and suggest the nearest choice where a word is none of them."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage, the message and perhaps a suggestion, and end with exit code 2."""
+        if found := _CHOICE.search(message):
+            names = [name.strip(" '") for name in found["names"].split(",")]
+            hint = did_you_mean(found["word"], names)
+            message += f"\n{hint}" if hint else ""
+        super().error(message)
+
+
+class LeftOut(argparse.Action):
+    """Refuse an option that the full ROS 2 has and this subset has not; `const` says why."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option_string: str | None = None,
+    ) -> NoReturn:
+        """End with a sentence, rather than go on without what was asked for."""
+        raise CommandError(f"'{parser.prog} {option_string}' is left out here: {self.const}")
+
+
+def leave_out(reason: str, *options: str) -> Argument:
+    """Return what refuses options with a sentence.
+
+    Args:
+        reason: Why, and what to do instead.
+        *options: Each option; its short form may stand before a comma.
+    """
+
+    def refuse(parser: argparse.ArgumentParser) -> None:
+        for names in options:
+            extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
+            parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
+        start = f"{parser.epilog}, " if parser.epilog else "Left out of this subset: "
+        parser.epilog = start + ", ".join(names.rpartition(",")[2] for names in options)
+
+    return refuse
+
+
+def words_of(argv: Sequence[str]) -> tuple[str | None, str | None]:
+    """Return the first two arguments that are not options: perhaps a command and a verb."""
+    words = [word for word in argv if not word.startswith("-")]
+    return (words[0] if words else None, words[1] if len(words) > 1 else None)
+
+
+def listing(entries: Mapping[str, str]) -> str:
+    """Return the block below `Commands:`."""
+    width = max(map(len, entries))
+    return "\n".join(f"{name:<{width}}  {about}" for name, about in sorted(entries.items()))
+
+
+def _sub(parser: Parser, call: str, entries: Mapping[str, str], dest: str) -> dict[str, Parser]:
+    metavar = f"Call `{call} -h` for more detailed usage."
+    group = parser.add_subparsers(
+        title="Commands", description=listing(entries), metavar=metavar, dest=dest, required=False
+    )
+    return {
+        name: group.add_parser(
+            name, description=about, formatter_class=argparse.RawDescriptionHelpFormatter
+        )
+        for name, about in sorted(entries.items())
+    }
+
+
+def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
+    if command in LEFT_OUT_VERBS:
+        parser.epilog = f"Left out of this subset: {', '.join(LEFT_OUT_VERBS[command])}"
+    verbs = verbs_of(command)
+    if "" in verbs:
+        verbs[""].add_arguments(parser)
+        return
+    if command in ("topic", "service"):
+        name = f"--include-hidden-{command}s"
+        parser.add_argument(
+            name, action="store_true", help=f"Consider hidden {command}s as well"
+        )  # the original has the option in both places
+    abouts = {name: one.about for name, one in verbs.items()}
+    parsers = _sub(parser, f"ros2 {command} <command>", abouts, "_verb")
+    parser.set_defaults(_parser=parser)
+    if verb in parsers:
+        parsers[verb].set_defaults(_parser=parsers[verb])
+        verbs[verb].add_arguments(parsers[verb])
+
+
+def build(argv: Sequence[str]) -> Parser:
+    """Make a parser for the whole command, with the arguments of the verb that argv names."""
+    command, verb = words_of(argv)
+    parser = Parser(
+        prog="ros2",
+        description="ros2 is an extensible command-line tool for ROS 2.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="This is a subset for ROS 2 installed with pip. Left out:\n"
+        f"  {', '.join(LEFT_OUT)}\n{WHERE_TO_GET_THE_WHOLE}",
+    )
+    parser.add_argument(
+        "--use-python-default-buffering",
+        action="store_true",
+        help="Do not force line buffering in stdout",
+    )
+    commands = _sub(parser, "ros2 <command>", COMMANDS, "_command")
+    parser.set_defaults(_parser=parser)
+    if command in commands:
+        commands[command].set_defaults(_parser=commands[command])
+        _fill_command(commands[command], command, verb)
+    return parser

@@ -1,3 +1,6 @@
+import pytest
+from ros2_command.packages import nested_type
+
 TEMPERATURE = """\
 std_msgs/Header header
 \tbuiltin_interfaces/Time stamp
@@ -54,3 +57,20 @@ def test_proto(ros2):
     bare = ros2.out("interface", "proto", "--no-quotes", "geometry_msgs/msg/Point")
     assert bare == "x: 0.0\ny: 0.0\nz: 0.0\n\n"
     assert ros2.out("interface", "proto", "std_msgs/msg/Empty") == '"{}\n"\n'
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ("Pose pose", "geometry_msgs/msg/Pose"),
+        ("Header header # x", "std_msgs/msg/Header"),
+        ("builtin_interfaces/Time stamp", "builtin_interfaces/msg/Time"),
+        ("BasicTypes[3] x", "geometry_msgs/msg/BasicTypes"),
+        ("float64 w 1", None),
+        ("string<=10 s", None),
+        ("# Pose pose", None),
+        ("---", None),
+    ],
+)
+def test_fields_that_are_messages(line, name):
+    assert nested_type(line, "geometry_msgs") == name

@@ -34,7 +34,7 @@ INFO = """\
 
 
 def test_list_is_complete_each_time(graph):
-    for _ in range(5):
+    for _ in range(3):
         assert graph.out("node", "list") == "/ns_two\n/one\n"
     assert graph.out("node", "list", "-c", "--no-daemon") == "2\n"
     assert graph.out("node", "list", "--spin-time", "2") == "/ns_two\n/one\n"
@@ -63,7 +63,7 @@ def test_a_second_node_of_the_same_name(graph, another_node):
         assert "There are 2 nodes in the graph" in graph("node", "info", "one").stderr
 
 
-@pytest.mark.parametrize("value", ["abc", "-1", "233", "1.5"])
+@pytest.mark.parametrize("value", ["abc", "-1", "233"])
 def test_a_bad_domain_id(ros2, value):
     error = ros2.error("node", "list", ROS_DOMAIN_ID=value)
     assert error.startswith(f"ROS_DOMAIN_ID is '{value}', which is not a domain id.\n")

@@ -2,6 +2,7 @@ import re
 
 import pytest
 from as_typed import interrupted
+from ros2_command.verbs.topic import Bandwidth, Delays, Rates
 
 pytestmark = pytest.mark.ros
 
@@ -9,8 +10,7 @@ LIST = ["/ns_two/in", "/one/in", "/parameter_events", "/rosout", "/slow", "/temp
 
 
 def test_list(graph):
-    for _ in range(3):
-        assert graph.out("topic", "list").split() == LIST
+    assert graph.out("topic", "list").split() == LIST
     assert "/slow [std_msgs/msg/Float32]\n" in graph.out("topic", "list", "-t")
     assert graph.out("topic", "list", "-tc") == "6\n"
     verbose = graph.out("topic", "list", "-v")
@@ -202,3 +202,38 @@ def test_pub_several_times(graph):
 )  # fmt: skip
 def test_pub_of_what_cannot_be_sent(graph, words, said, code):
     assert said in graph.error("topic", "pub", *words, code=code)
+
+
+def test_intervals():
+    rates = Rates(window=100)
+    assert rates.report() is None
+    for now in (0.0, 1.0, 2.0):
+        rates.arrived(now)
+    text = "average rate: 1.000\n\tmin: 1.000s max: 1.000s std dev: 0.00000s window: 3"
+    assert rates.report() == text
+    assert rates.report() is None
+
+
+def test_bandwidth():
+    bandwidth = Bandwidth(window=100)
+    bandwidth.arrived(0.0, 8)
+    assert bandwidth.report(1.0) is None
+    bandwidth.arrived(0.5, 8)
+    text = "16 B/s from 2 messages\n\tMessage size mean: 8 B min: 8 B max: 8 B"
+    assert bandwidth.report(1.0) == text
+    large = Bandwidth(window=2)
+    for now in (-1.0, 0.0, 0.5):
+        large.arrived(now, 5080)
+    assert large.report(1.0).splitlines()[0] == "10.16 KB/s from 2 messages"
+    assert large.report(-2.0) is None
+
+
+def test_delays():
+    delays = Delays(window=100)
+    delays.arrived(10.0, 1.0)  # starts the clock
+    assert delays.report() is None
+    delays.arrived(11.0, 10.9)
+    delays.arrived(12.0, 11.7)
+    text = "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2"
+    assert delays.report() == text
+    assert delays.report() is None

@@ -9,8 +9,11 @@ from functools import partial
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import (
+from ros2_command.messages import Style, add_value_arguments, fill, read_yaml, to_yaml, value_text
+from ros2_command.names import (
     Entries,
+    absolute,
+    check_name,
     full_type,
     pick,
     show_entries,
@@ -19,9 +22,6 @@ from ros2_command.lookup import (
     type_class,
     wait_for_server,
 )
-from ros2_command.message_text import Style, to_yaml
-from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
-from ros2_command.names import absolute, check_name
 from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 
@@ -151,6 +151,7 @@ def _yaml(message: Untyped) -> str:
 _TYPES = flag("-t", "--show-types", help="Additionally show the action type")
 VERBS = {
     "info": Verb(
+        "Print information about an action",
         _info,
         add_graph_arguments,
         argument("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')"),
@@ -158,12 +159,14 @@ VERBS = {
         flag("-c", "--count", help="Only display the number of action clients and action servers"),
     ),
     "list": Verb(
+        "Output a list of action names",
         _list,
         add_graph_arguments,
         _TYPES,
         flag("-c", "--count-actions", help="Only display the number of actions discovered"),
     ),
     "send_goal": Verb(
+        "Send an action goal",
         _send_goal,
         argument("action_name", help="Name of the ROS action (e.g. '/fibonacci')"),
         argument("action_type",
@@ -173,6 +176,7 @@ VERBS = {
         flag("-f", "--feedback", help="Echo feedback messages for the goal"),
     ),
     "type": Verb(
+        "Print a action's type",
         _type,
         add_graph_arguments,
         argument("action_name", help="Name of the ROS action to get type (e.g. '/fibonacci')"),

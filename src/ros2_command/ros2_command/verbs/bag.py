@@ -17,13 +17,18 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from ros2_command.definitions import whole_definition
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, open_graph
-from ros2_command.lookup import find_type, suggestion
-from ros2_command.names import absolute, check_name, check_node_name, is_hidden
-from ros2_command.parser import leave_out
-from ros2_command.registry import Argument, Verb, argument, flag
+from ros2_command.names import (
+    absolute,
+    check_name,
+    check_node_name,
+    find_type,
+    is_hidden,
+    suggestion,
+)
+from ros2_command.packages import whole_definition
+from ros2_command.registry import Argument, Verb, argument, flag, leave_out
 from ros2_command.untyped import Untyped
 
 _STORAGES = ["mcap", "sqlite3"]
@@ -588,11 +593,12 @@ _PLAY = (
 )  # fmt: skip
 VERBS = {
     "info": Verb(
+        "Print information about a bag to the screen",
         _info,
         *_BAG,
         flag("-t", "--topic-name", help="Only display topic names."),
         flag("-v", "--verbose", help=f"Display information for services {_NO_EFFECT}"),
     ),
-    "play": Verb(_play, *_PLAY),
-    "record": Verb(_record, *_RECORD),
+    "play": Verb("Play back ROS data from a bag", _play, *_PLAY),
+    "record": Verb("Record ROS data to a bag", _record, *_RECORD),
 }

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from argparse import REMAINDER, ArgumentParser, Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from importlib.resources import files
 
 from ros2_command.errors import CommandError
-from ros2_command.parser import build
-from ros2_command.registry import COMMANDS, Verb
+from ros2_command.registry import COMMANDS, Verb, build, verbs_of
 
 _BASH = """_ros2_complete() {
     local IFS=$'\\n'
@@ -57,15 +56,14 @@ def _next(words: list[str]) -> list[str]:
         return list(COMMANDS)
     if words[0] not in COMMANDS:
         return []
-    verbs = COMMANDS[words[0]].verbs
-    if verbs and len(words) == 1:
+    verbs = verbs_of(words[0])
+    if "" not in verbs and len(words) == 1:
         return list(verbs)
-    given = words[2:] if verbs else words[1:]
+    given = words[1:] if "" in verbs else words[2:]
     arguments = [one.dest for one in _parser_of(words)._actions if not one.option_strings]
     if len(given) >= len(arguments) or words[:2] == ["pkg", "create"]:  # which wants a new name
         return []
-    source = _SOURCES.get(arguments[len(given)])
-    return source(given) if source else []
+    return _values(arguments[len(given)], given)
 
 
 def _options(words: list[str]) -> list[str]:
@@ -82,73 +80,65 @@ def _parser_of(words: list[str]) -> ArgumentParser:
     return parser
 
 
-def _packages(given: list[str]) -> list[str]:
-    from ros2_command.packages import all_packages
-
-    return list(all_packages())
-
-
-def _executables(given: list[str]) -> list[str]:
-    from ros2_command.packages import executables, package_prefix
-
-    return [path.name for path in executables(package_prefix(given[0]), given[0])]
+#: The kind of interface that an argument names; None for any.
+_TYPES = {
+    "message_type": "msg",
+    "topic_type": "msg",
+    "service_type": "srv",
+    "action_type": "action",
+    "type": None,
+}
 
 
-def _interfaces(kind: str | None) -> Callable[[list[str]], list[str]]:
-    def find(given: list[str]) -> list[str]:
-        from ros2_command.definitions import all_interfaces
+def _values(argument: str, given: Sequence[str]) -> list[str]:
+    """Return what an argument may be.
 
-        return [one.name for one in all_interfaces() if kind in (None, one.kind)]
+    Args:
+        argument: Its name in the parser.
+        given: The arguments before it.
+    """
+    from ros2_command import packages
 
-    return find
-
-
-def _from_graph(what: str) -> Callable[[list[str]], list[str]]:
-    def ask(given: list[str]) -> list[str]:
-        from ros2_command.graph import open_graph
-        from ros2_command.names import is_hidden
-
-        with open_graph() as graph:
-            graph.settle()
-            if what == "node":
-                return graph.nodes()
-            if what == "action":
-                from rclpy.action import get_action_names_and_types
-
-                entries = get_action_names_and_types(graph.node)
-            else:
-                entries = graph.topics() if what == "topic" else graph.services()
-        return [name for name, _ in entries if not is_hidden(name)]
-
-    return ask
+    if argument == "package_name":
+        return list(packages.all_packages())
+    if argument == "executable_name":
+        found = packages.executables(packages.package_prefix(given[0]), given[0])
+        return [path.name for path in found]
+    if argument in _TYPES:
+        kind = _TYPES[argument]
+        return [one.name for one in packages.all_interfaces() if kind in (None, one.kind)]
+    if argument in ("parameter_name", "parameter_names"):
+        return _parameters(given[0])
+    return _from_graph(argument)
 
 
-def _parameters(given: list[str]) -> list[str]:
+def _from_graph(argument: str) -> list[str]:
+    from ros2_command.graph import open_graph
+    from ros2_command.names import visible
+
+    if argument not in ("node_name", "topic_name", "topics_positional", "service_name",
+                        "action_name"):  # fmt: skip
+        return []
+    with open_graph() as graph:
+        graph.settle()
+        if argument == "node_name":
+            return graph.nodes()
+        if argument == "action_name":
+            from rclpy.action import get_action_names_and_types
+
+            entries = get_action_names_and_types(graph.node)
+        else:
+            entries = graph.services() if argument == "service_name" else graph.topics()
+    return [name for name, _ in visible(entries, hidden=False)]
+
+
+def _parameters(node: str) -> list[str]:
     from ros2_command.graph import open_graph
     from ros2_command.names import absolute
     from ros2_command.verbs.param import RemoteParameters
 
     with open_graph() as graph:
-        return RemoteParameters(graph, absolute(given[0])).names()
+        return RemoteParameters(graph, absolute(node)).names()
 
 
-#: Where the values of an argument come from, by its name.
-_SOURCES: dict[str, Callable[[list[str]], list[str]]] = {
-    "package_name": _packages,
-    "executable_name": _executables,
-    "message_type": _interfaces("msg"),
-    "topic_type": _interfaces("msg"),
-    "service_type": _interfaces("srv"),
-    "action_type": _interfaces("action"),
-    "type": _interfaces(None),
-    "topic_name": _from_graph("topic"),
-    "topics_positional": _from_graph("topic"),
-    "node_name": _from_graph("node"),
-    "service_name": _from_graph("service"),
-    "action_name": _from_graph("action"),
-    "parameter_name": _parameters,
-    "parameter_names": _parameters,
-}
-
-
-VERBS = {"": Verb(_main, _add_arguments)}
+VERBS = {"": Verb("", _main, _add_arguments)}

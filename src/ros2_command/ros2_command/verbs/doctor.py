@@ -186,6 +186,7 @@ def _sections(graph: Graph) -> list[tuple[str, Rows]]:
 
 VERBS = {
     "": Verb(
+        "",
         _main,
         one_of(
             flag("--report", "-r", help="Print all reports."),

@@ -6,15 +6,15 @@ import sys
 from argparse import Namespace
 from typing import Any
 
-from ros2_command.definitions import (
+from ros2_command.errors import CommandError, UsageError
+from ros2_command.packages import (
     KINDS,
     all_interfaces,
     find_interface,
     package_interfaces,
+    package_prefix,
     show_lines,
 )
-from ros2_command.errors import CommandError, UsageError
-from ros2_command.packages import package_prefix
 from ros2_command.registry import Verb, argument, flag, one_of
 
 
@@ -45,8 +45,8 @@ def _packages(args: Namespace) -> None:
 
 
 def _proto(args: Namespace) -> None:
-    from ros2_command.lookup import find_type
-    from ros2_command.message_text import Style, to_yaml
+    from ros2_command.messages import Style, to_yaml
+    from ros2_command.names import find_type
 
     interface = find_interface(args.type)
     found: Any = find_type(interface.name, interface.kind)
@@ -78,19 +78,22 @@ _ONLY = [
     )
 ]  # fmt: skip
 VERBS = {
-    "list": Verb(_list, *_ONLY),
+    "list": Verb("List all interface types available", _list, *_ONLY),
     "package": Verb(
+        "Output a list of available interface types within one package",
         _package,
         argument("package_name", help="Name of the ROS package (e.g. 'example_interfaces')"),
         *_ONLY,
     ),
-    "packages": Verb(_packages, *_ONLY),
+    "packages": Verb("Output a list of packages that provide interfaces", _packages, *_ONLY),
     "proto": Verb(
+        "Output an interface prototype",
         _proto,
         flag("--no-quotes", help="if true output has no outer quotes."),
         argument("type", help="Show an interface prototype (e.g. 'std_msgs/msg/String')"),
     ),
     "show": Verb(
+        "Output the interface definition",
         _show,
         one_of(
             flag("--all-comments", help="Show all comments, including for nested types"),

@@ -7,7 +7,7 @@ from argparse import Namespace
 from typing import Any
 
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import Entries, find_node, visible
+from ros2_command.names import Entries, find_node, visible
 from ros2_command.registry import Verb, argument, flag
 
 SHARED_NAME = (
@@ -71,12 +71,14 @@ def _ask(graph: Graph, full: str) -> dict[str, Entries]:
 
 VERBS = {
     "info": Verb(
+        "Output information about a node",
         _info,
         add_graph_arguments,
         argument("node_name", help="Node name to request information"),
         flag("--include-hidden", help="Display hidden topics, services, and actions as well"),
     ),
     "list": Verb(
+        "Output a list of available nodes",
         _list,
         add_graph_arguments,
         flag("-a", "--all", help="Display all nodes even hidden ones"),

@@ -10,8 +10,7 @@ from typing import Any
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import find_node
-from ros2_command.names import absolute, did_you_mean
+from ros2_command.names import absolute, did_you_mean, find_node
 from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 from ros2_command.verbs.service import ask
@@ -351,13 +350,18 @@ _NODE = (
 )  # fmt: skip
 _PARAMETER = (*_NODE, argument("parameter_name", help="Name of the parameter"))
 VERBS = {
-    "delete": Verb(_delete, *_PARAMETER),
+    "delete": Verb("Delete parameter", _delete, *_PARAMETER),
     "describe": Verb(
+        "Show descriptive information about declared parameters",
         _describe, *_NODE, argument("parameter_names", nargs="+", help="Names of the parameters")
     ),
-    "dump": Verb(_dump, *_NODE),
-    "get": Verb(_get, *_PARAMETER, flag("--hide-type", help="Hide the type information")),
+    "dump": Verb("Show all of the parameters of a node in a YAML file format", _dump, *_NODE),
+    "get": Verb(
+        "Get parameter",
+        _get, *_PARAMETER, flag("--hide-type", help="Hide the type information"),
+    ),
     "list": Verb(
+        "Output a list of available parameters",
         _list,
         add_graph_arguments,
         argument("node_name", nargs="?", help="Name of the ROS node"),
@@ -368,11 +372,15 @@ VERBS = {
         argument("--filter", help="Only list parameters matching the provided regex"),
     ),
     "load": Verb(
+        "Load parameter file for a node",
         _load,
         *_NODE,
         argument("parameter_file", help="Parameter file"),
         flag("--no-use-wildcard",
              help="Do not load parameters in the '/**' namespace into the node"),
     ),
-    "set": Verb(_set, *_PARAMETER, argument("value", help="Value of the parameter")),
+    "set": Verb(
+        "Set parameter",
+        _set, *_PARAMETER, argument("value", help="Value of the parameter"),
+    ),
 }  # fmt: skip

@@ -78,6 +78,7 @@ def _create(args: Namespace) -> None:
 _NAME = argument("package_name", help="The package name")
 VERBS = {
     "create": Verb(
+        "Create a new ROS 2 package",
         _create,
         _NAME,
         argument("--package-format", "--package_format", type=int, default=3, choices=[2, 3],
@@ -100,15 +101,18 @@ VERBS = {
         argument("--library-name", help="name of the empty library"),
     ),
     "executables": Verb(
+        "Output a list of package specific executables",
         _executables,
         argument("package_name", nargs="?", help="The package name"),
         flag("--full-path", help="Show full path of each executable"),
     ),
-    "list": Verb(_list),
+    "list": Verb("Output a list of available packages", _list),
     "prefix": Verb(
+        "Output the prefix path of a package",
         _prefix, _NAME, flag("--share", help="Show share directory of the package")
     ),
     "xml": Verb(
+        "Output the XML of the package manifest or a specific tag",
         _xml, _NAME, argument("-t", "--tag", help="The XML tag to output, e.g. 'version'")
     ),
 }  # fmt: skip

@@ -165,25 +165,10 @@ def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[by
         # One thread only and nothing but a system call in between, so preexec_fn is safe.
         return subprocess.Popen(list(command), preexec_fn=unblock)
     except OSError as error:
-        raise CommandError(*_why_not_started(command[0], error)) from None
-
-
-def _why_not_started(program: str, error: OSError) -> list[str]:
-    path = Path(program)
-    if isinstance(error, FileNotFoundError) and path.is_file():
-        with path.open("rb") as file:
-            first = file.readline(200).decode("utf-8", "replace").strip()
-        return [
-            f"Failed to start {program}: its first line names a program that does not exist:",
-            f"  {first}",
-            "Build the package again, or correct that line.",
-        ]
-    if error.errno == 8:  # ENOEXEC
-        return [
-            f"Failed to start {program}: it does not say which program should run it.",
-            "Its first line should be:  #!/usr/bin/env python3",
-        ]
-    return [f"Failed to start {program}: {error.strerror}"]
+        raise CommandError(
+            f"Failed to start {command[0]}: {error.strerror}",
+            "The first line of a program names what runs it, such as:  #!/usr/bin/env python3",
+        ) from None
 
 
 def _wait(process: subprocess.Popen[bytes], watch: GroupWatch) -> int:
@@ -213,6 +198,7 @@ def _report(code: int) -> int:
 
 VERBS = {
     "": Verb(
+        "",
         _main,
         argument("--prefix", help="Prefix command, which should go before the executable. Command "
                  "must be wrapped in quotes if it contains spaces (e.g. --prefix 'gdb -ex run "

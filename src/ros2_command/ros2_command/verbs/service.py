@@ -9,8 +9,21 @@ from typing import Any
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import (
+from ros2_command.messages import (
+    add_style_arguments,
+    add_value_arguments,
+    fill,
+    plain_to_yaml,
+    read_yaml,
+    style_of,
+    to_csv,
+    to_plain,
+    value_text,
+)
+from ros2_command.names import (
     Entries,
+    absolute,
+    check_name,
     full_type,
     of_type,
     pick,
@@ -19,15 +32,6 @@ from ros2_command.lookup import (
     visible,
     wait_for_server,
 )
-from ros2_command.message_text import (
-    add_style_arguments,
-    plain_to_yaml,
-    style_of,
-    to_csv,
-    to_plain,
-)
-from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
-from ros2_command.names import absolute, check_name
 from ros2_command.qos import add_qos_arguments, asked_profile
 from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
@@ -149,6 +153,7 @@ _EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIV
 
 VERBS = {
     "call": Verb(
+        "Call a service",
         _call,
         argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')"),
         argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"),
@@ -158,6 +163,7 @@ VERBS = {
                  help="Repeat the call at a specific rate in Hz"),
     ),
     "echo": Verb(
+        "Echo a service",
         _echo,
         add_graph_arguments,
         argument("service_name", help="Name of the ROS service to echo (e.g. '/add_two_ints')"),
@@ -167,6 +173,7 @@ VERBS = {
         add_style_arguments,
     ),
     "find": Verb(
+        "Output a list of available services of a given type",
         _find,
         argument("service_type",
                  help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')"),
@@ -174,17 +181,22 @@ VERBS = {
         _HIDDEN,
     ),
     "info": Verb(
+        "Print information about a service",
         _info,
         add_graph_arguments,
         argument("service_name",
                  help="Name of the ROS service to get info (e.g. '/add_two_ints')"),
     ),
     "list": Verb(
+        "Output a list of available services",
         _list,
         add_graph_arguments,
         flag("-t", "--show-types", help="Additionally show the service type"),
         _COUNT,
         _HIDDEN,
     ),
-    "type": Verb(_type, argument("service_name", help="Name of the ROS service to get type")),
+    "type": Verb(
+        "Output a service's type",
+        _type, argument("service_name", help="Name of the ROS service to get type"),
+    ),
 }  # fmt: skip

@@ -5,14 +5,33 @@ from __future__ import annotations
 import sys
 import time
 from argparse import SUPPRESS, ArgumentTypeError, Namespace
+from collections import deque
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import (
+from ros2_command.messages import (
+    Stamper,
+    add_style_arguments,
+    add_value_arguments,
+    fill,
+    is_message_value,
+    plain_to_yaml,
+    read_yaml,
+    style_of,
+    to_csv,
+    to_yaml,
+    value_text,
+)
+from ros2_command.names import (
     Entries,
+    absolute,
+    check_name,
+    check_node_name,
+    did_you_mean,
+    is_hidden,
     of_type,
     pick,
     show_entries,
@@ -22,18 +41,7 @@ from ros2_command.lookup import (
     type_class,
     visible,
 )
-from ros2_command.message_text import (
-    add_style_arguments,
-    is_message_value,
-    plain_to_yaml,
-    style_of,
-    to_csv,
-    to_yaml,
-)
-from ros2_command.message_values import Stamper, add_value_arguments, fill, read_yaml, value_text
-from ros2_command.names import absolute, check_name, check_node_name, did_you_mean, is_hidden
 from ros2_command.qos import add_qos_arguments, asked_profile, follow_publishers
-from ros2_command.rates import Bandwidth, Delays, Rates
 from ros2_command.registry import Argument, Verb, argument, flag, one_of
 from ros2_command.untyped import Untyped
 
@@ -42,6 +50,7 @@ _HIDDEN = argument(
     "--include-hidden-topics", action="store_true", default=SUPPRESS,
     help="Consider hidden topics as well",
 )  # fmt: skip
+_UNITS = (("B", 1, 0), ("KB", 1_000, 2), ("MB", 1_000_000, 2), ("GB", 1_000_000_000, 2))
 _COUNT = flag("-c", "--count-topics", help="Only display the number of topics discovered")
 
 
@@ -265,6 +274,110 @@ def _measured(about: str, window: int) -> tuple[Argument, ...]:
     )  # fmt: skip
 
 
+class _Measurements:
+    """Keep the last seconds that were measured, and report on them when there are new ones.
+
+    Args:
+        window: How many to keep.
+    """
+
+    def __init__(self, window: int) -> None:
+        self._values: deque[float] = deque(maxlen=window)
+        self._last: float | None = None
+        self._news = False
+
+    def _add(self, value: float) -> None:
+        self._values.append(value)
+        self._news = True
+
+    def _news_of(self, name: str, average: Callable[[float], float], more: int = 0) -> str | None:
+        """Return two lines, or None if nothing has come since the last report.
+
+        Args:
+            name: What is averaged.
+            average: Makes what is printed of the mean of the values.
+            more: How many messages there were besides one for each value.
+        """
+        from statistics import fmean, pstdev
+
+        if not self._news:
+            return None
+        self._news = False
+        return (
+            f"average {name}: {average(fmean(self._values)):.3f}\n"
+            f"\tmin: {min(self._values):.3f}s max: {max(self._values):.3f}s "
+            f"std dev: {pstdev(self._values):.5f}s window: {len(self._values) + more}"
+        )
+
+
+class Rates(_Measurements):
+    """Measure the intervals between messages."""
+
+    def arrived(self, now: float) -> None:
+        """Count a message that came at this time in seconds."""
+        if self._last is not None:
+            self._add(now - self._last)
+        self._last = now
+
+    def report(self) -> str | None:
+        """Return two lines, or None if nothing has come since the last report."""
+        return self._news_of("rate", lambda mean: 1 / mean if mean else 0.0, more=1)
+
+
+class Delays(_Measurements):
+    """Measure how long after their stamps messages arrive."""
+
+    def arrived(self, now: float, stamp: float) -> None:
+        """Count a message that came at this time and bears this stamp, both in seconds.
+
+        The first one only starts the clock, as in the original; so does one from an earlier time.
+        """
+        if self._last is None or now < self._last:
+            self._values.clear()
+            self._news = False
+        else:
+            self._add(now - stamp)
+        self._last = now
+
+    def report(self) -> str | None:
+        """Return two lines, or None if nothing has come since the last report."""
+        return self._news_of("delay", lambda mean: mean)
+
+
+class Bandwidth:
+    """Measure bytes per second.
+
+    Args:
+        window: How many messages to keep.
+    """
+
+    def __init__(self, window: int) -> None:
+        self._arrivals: deque[tuple[float, int]] = deque(maxlen=window)
+
+    def arrived(self, now: float, size: int) -> None:
+        """Count a message of so many bytes that came at this time in seconds."""
+        self._arrivals.append((now, size))
+
+    def report(self, now: float) -> str | None:
+        """Return two lines, or None if there are too few messages."""
+        if len(self._arrivals) < 2:
+            return None
+        if now <= self._arrivals[0][0]:  # time went back
+            self._arrivals.clear()
+            return None
+        sizes = [size for _, size in self._arrivals]
+        rate = sum(sizes) / (now - self._arrivals[0][0])
+        unit, factor, digits = [one for one in _UNITS if rate >= one[1] or one[1] == 1][-1]
+
+        def show(size: float) -> str:
+            return f"{size / factor:.{digits}f} {unit}"
+
+        return (
+            f"{show(rate)}/s from {len(sizes)} messages\n\tMessage size "
+            f"mean: {show(sum(sizes) / len(sizes))} min: {show(min(sizes))} max: {show(max(sizes))}"
+        )
+
+
 def _known_class(graph: Graph, topic: str) -> Untyped:
     """Return the message class of a topic; if it is not there yet, say so and wait for it."""
     check_name("topic", topic)
@@ -435,9 +548,16 @@ def _publish(
 
 
 VERBS = {
-    "bw": Verb(_bw, *_measured("Topic name to monitor for bandwidth utilization", 100)),
-    "delay": Verb(_delay, *_measured("Topic name to calculate the delay for", 10000)),
+    "bw": Verb(
+        "Display bandwidth used by topic",
+        _bw, *_measured("Topic name to monitor for bandwidth utilization", 100),
+    ),
+    "delay": Verb(
+        "Display delay of topic from timestamp in header",
+        _delay, *_measured("Topic name to calculate the delay for", 10000),
+    ),
     "echo": Verb(
+        "Output messages from a topic",
         _echo,
         add_graph_arguments,
         argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')"),
@@ -456,6 +576,7 @@ VERBS = {
         flag("-i", "--include-message-info", help="Shows the associated info"),
     ),
     "find": Verb(
+        "Output a list of available topics of a given type",
         _find,
         add_graph_arguments,
         argument("topic_type",
@@ -464,6 +585,7 @@ VERBS = {
         _HIDDEN,
     ),
     "hz": Verb(
+        "Print the average publishing rate to screen",
         _hz,
         *_measured("Name of the ROS topic to listen to (e.g. '/chatter')", 10000),
         argument("--filter", dest="filter_expr", metavar="EXPR",
@@ -471,6 +593,7 @@ VERBS = {
         flag("--wall-time", help="calculates rate using wall time"),
     ),
     "info": Verb(
+        "Print information about a topic",
         _info,
         add_graph_arguments,
         argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')"),
@@ -480,6 +603,7 @@ VERBS = {
              "subscribers to this topic"),
     ),
     "list": Verb(
+        "Output a list of available topics",
         _list,
         add_graph_arguments,
         flag("-t", "--show-types", help="Additionally show the topic type"),
@@ -488,6 +612,7 @@ VERBS = {
         flag("-v", "--verbose", help="List full details about each topic"),
     ),
     "pub": Verb(
+        "Publish a message to a topic",
         _pub,
         argument("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')"),
         argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')"),
@@ -514,6 +639,7 @@ VERBS = {
         partial(add_graph_arguments, daemon=False),
     ),
     "type": Verb(
+        "Print a topic's type",
         _type,
         add_graph_arguments,
         argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')"),
