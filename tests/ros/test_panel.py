@@ -14,7 +14,7 @@ from rosbeat import Session
 from rosbeat.errors import SessionError
 from rosbeat.panel import panel as panels
 from rosbeat.panel.instruments import SessionInstruments
-from rosbeat.ros.injection import INJECTOR, TopicFault
+from rosbeat.ros.test_nodes import INJECTOR, TopicFault
 
 pytestmark = pytest.mark.ros
 PANEL = f"/{INJECTOR}"

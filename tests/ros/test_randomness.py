@@ -7,7 +7,7 @@ import pytest
 from rclpy.node import Node
 
 from rosbeat import Session
-from rosbeat.ros.randomness import SeededRandom, tilt
+from rosbeat.ros.isolation import SeededRandom, tilt
 
 
 class Dice(Node):

@@ -9,13 +9,14 @@ from rosbeat import Session
 from rosbeat.errors import BagError
 from rosbeat.exercises.scenarios import station
 from rosbeat.records import QoS
-from rosbeat.ros.playback import PlayedTopic, player
 from rosbeat.ros.test_nodes import (
     GREENHOUSE,
+    PlayedTopic,
     drift,
     feeder,
     listener,
     observe_greenhouse,
+    player,
 )
 
 pytestmark = pytest.mark.ros

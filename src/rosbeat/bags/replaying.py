@@ -12,7 +12,7 @@ from rosbeat.bags.inputs import Run, full_name, known_topic, observation_of, top
 from rosbeat.bags.serialization import installed_types, serialized
 from rosbeat.errors import BagError, called_as
 from rosbeat.records import Observation, QoS, Sample
-from rosbeat.ros.playback import NodeFactory, PlayedStep, PlayedTopic, player
+from rosbeat.ros.test_nodes import NodeFactory, PlayedStep, PlayedTopic, player
 
 
 @called_as("bags.replay(bag)")

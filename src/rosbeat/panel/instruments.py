@@ -14,12 +14,12 @@ from rosbeat.panel.layout import NUMERIC_TYPES
 from rosbeat.panel.sampling import News
 from rosbeat.records import GraphSnapshot
 from rosbeat.ros.errors import no_such_node, node_has_ended, session_has_ended, session_is_not_live
-from rosbeat.ros.injection import Injector, TopicFault, restart_node
 from rosbeat.ros.launch import Maker
+from rosbeat.ros.test_nodes import Injector, TopicFault, restart_node
 from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
-    from rosbeat.ros.entities import NodeState
+    from rosbeat.ros.processes import NodeState
 
 #: What a fault does to the messages of a topic.
 FAULTS = ("none", "dropout", "nan", "offset")

@@ -24,9 +24,9 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from rosbeat.errors import SessionError
-from rosbeat.ros.console import note
 from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.entities import NodeState
+from rosbeat.ros.errors import note
+from rosbeat.ros.processes import NodeState
 from rosbeat.ros.recording import watcher_of
 
 if TYPE_CHECKING:

@@ -36,9 +36,8 @@ from rclpy.task import Task
 from rosbeat.errors import EndlessChainError, SessionError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
-from rosbeat.ros.entities import Entry, NodeState
 from rosbeat.ros.errors import never_made
-from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
+from rosbeat.ros.processes import Call, Entry, NodeState, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
 from rosbeat.ros.wait_set import NOT_OF_CALLBACKS, Coroutines, Waiting, WaitSetExecutor

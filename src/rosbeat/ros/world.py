@@ -26,19 +26,36 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import action_of
-from rosbeat.ros.blocking import VirtualWaits
-from rosbeat.ros.clock import SessionClock, make_clock
-from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
+from rosbeat.ros.clock import SessionClock, VirtualWaits, make_clock
 from rosbeat.ros.context import SessionContext
-from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name
-from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
+from rosbeat.ros.errors import (
+    INSTEAD_OF_WAITING,
+    Console,
+    check_name,
+    deadlock,
+    deadlock_text,
+    fault_text,
+    foreign_node,
+    no_such_node,
+    note,
+    work_text,
+)
 from rosbeat.ros.faults import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
+from rosbeat.ros.isolation import SeededRandom
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
-from rosbeat.ros.processes import Call, Process, Wait
+from rosbeat.ros.processes import (
+    TAKERS,
+    Call,
+    Entry,
+    NodeState,
+    Process,
+    Wait,
+    callback_name,
+    full_name,
+)
 from rosbeat.ros.qos_events import Limits, wait_for_stored
-from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
     Entity,
     Memory,
