@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 import six_nodes
 from nodes import Listener, Talker
@@ -19,7 +19,7 @@ from rosbeat.records_json import digest
 
 TESTS = Path(six_nodes.__file__).parent
 #: The lead runs 200; a test suite does not need to.
-RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "10"))
+RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "5"))
 PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "2"))
 
 
@@ -40,16 +40,6 @@ def busy_cores(number: int = 2) -> Iterator[None]:
         for burner in burners:
             burner.kill()
             burner.join()
-
-
-def test_the_program_does_what_it_says():
-    seen = six_nodes.observe()
-    assert len(seen.graph.nodes) == 6
-    assert len([s for s in seen.samples if s.topic == "/walk"]) == 40
-    assert len([s for s in seen.samples if s.topic == "/second"]) == 13
-    stored = [log for log in seen.logs if log.name == "late_reader" and log.time == 5.01]
-    assert len(stored) == 3
-    assert seen.faults == ()
 
 
 def test_runs_in_one_process():
@@ -92,33 +82,9 @@ def late(published=20, stores=5, wants=10):
         return heard
 
 
-def test_a_late_joiner_gets_exactly_what_is_stored():
-    assert all(late() == [16, 17, 18, 19, 20] for _ in range(RUNS))
-
-
 @pytest.mark.parametrize(
     ("published", "stores", "wants", "gets"),
     [(3, 5, 10, 3), (20, 10, 4, 4), (1, 1, 1, 1), (20, 1, 10, 1)],
 )
 def test_the_smaller_of_both_depths(published, stores, wants, gets):
     assert late(published, stores, wants) == list(range(published - gets + 1, published + 1))
-
-
-def test_a_publisher_that_is_gone_stores_nothing(ros, monkeypatch):
-    for limit in ("_UNACKNOWLEDGED", "_LIMIT"):  # a wait would last longer than the test may
-        monkeypatch.setattr(f"rosbeat.ros.qos_events.{limit}", 1_000.0)
-    talker = ros.add(partial(Talker, qos=stored(5)))
-    ros.run(5)
-    talker.destroy_publisher(talker.publisher)
-    talker.timer.cancel()
-    listener = ros.add(partial(Listener, qos=stored(5)))
-    ros.run(1)
-    assert listener.heard == []
-
-
-def test_keep_all_gets_all_that_is_stored(ros):
-    ros.add(partial(Talker, burst=8, qos=stored(5)))
-    ros.run(1)
-    listener = ros.add(partial(Listener, qos=stored(0, history=HistoryPolicy.KEEP_ALL)))
-    ros.run(0)
-    assert listener.heard == [4, 5, 6, 7, 8]

@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from nodes import Listener, Talker, Words
+from nodes import Listener
 from other_process import other_process
 from rosbeat import Session
 from rosbeat.domains import lease_domain
@@ -55,29 +55,6 @@ def test_an_own_node_hears_them(joined):
     found = joined.explain("words", seconds=20)
     assert verdicts(found) == ["type-mismatch"]
     assert "/words publishes String, and /own subscribes to Int32" in found.diagnoses[0].evidence
-
-
-def test_an_own_node_that_nobody_hears(joined):
-    joined.add(partial(Words, name="own", topic="alone"))
-    joined.run(3)
-    assert verdicts(joined.explain("alone")) == ["no-subscription"]
-
-
-def test_two_nodes_of_one_name(joined, eventually):
-    joined.add(Talker)
-    joined.run(1)
-    eventually(lambda: joined.graph().nodes.count("/talker") == 2, 30)
-    found = joined.explain("count", seconds=20)
-    assert "run-twice" in verdicts(found)
-    assert found.headlines[-1] == "2 nodes are called /talker"
-
-
-def test_own_messages_are_not_taken_for_theirs(joined, eventually):
-    joined.add(partial(Talker, "own", "hush", period=0.01))
-    joined.start()
-    found = joined.explain("hush", seconds=1)
-    assert verdicts(found) == ["not-spun"]
-    assert "/quiet publishes Int32 (RELIABLE, VOLATILE): no messages" in " ".join(found.sentences)
 
 
 def test_nothing_is_left_behind(joined, eventually):

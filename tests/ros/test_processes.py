@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import rclpy
 from greenlet import greenlet
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
@@ -17,7 +17,6 @@ from std_srvs.srv import Trigger
 
 from rosbeat import Session
 from rosbeat.errors import NodeConstructionError, SessionError
-from rosbeat.records_json import digest
 from rosbeat.ros.scenario import observe
 
 pytestmark = pytest.mark.ros
@@ -257,18 +256,6 @@ def test_add_needs_a_node_and_one_name_for_each(ros, says):
     says(caught.value, "both")
 
 
-def test_if_one_of_several_cannot_be_made_none_is(ros):
-    def broken():
-        raise ValueError("no")
-
-    with pytest.raises(NodeConstructionError):
-        ros.add(Beat, broken)
-    assert ros.nodes == ()
-    ros.add(Beat)
-    ros.run(1)
-    assert times(ros, "beat") == [0.5, 1]
-
-
 # Threads of the kernel.
 
 
@@ -306,23 +293,7 @@ def test_a_callback_that_waits_goes_on_in_its_own_thread(ros, says):
     assert lines(ros) == [(2.2, "awake")]
 
 
-def test_a_session_can_be_closed_in_another_thread_while_a_callback_waits():
-    ros = Session()
-    ros.add(Sleeper)
-    ros.run(1.5)
-    assert not in_thread(ros.close)
-
-
 # In a cell, and explained.
-
-
-def test_a_cell_waits_for_a_service_in_virtual_time(ros):
-    client = ros.add(lambda: Node("guest")).create_client(Trigger, "ask")
-    assert not client.wait_for_service(timeout_sec=1_000.0)  # more than the test may take
-    assert ros.time == 1_000
-    ros.add(Server)
-    assert client.wait_for_service(timeout_sec=30.0)
-    assert ros.time == 1_000
 
 
 def test_explain_knows_a_deadlock(capsys):
@@ -342,43 +313,6 @@ def test_explain_knows_a_deadlock(capsys):
 
 
 # What is left behind when a cell is run again; and the same every time.
-
-
-def test_a_node_that_is_replaced_in_its_sleep_ends_there(ros):
-    ended = []
-
-    class Careful(Sleeper):
-        def sleep(self):
-            try:
-                super().sleep()
-            finally:
-                ended.append(1)
-
-    before = len(all_greenlets())
-    for _ in range(3):
-        ros.add(Careful)
-        ros.run(1.5)
-    assert len(ended) == 2
-    assert len(all_greenlets()) <= before + 2  # the one asleep, and the one that runs the loop
-    ros.run(5)
-    assert [text for _, text in lines(ros)] == ["awake"]
-
-
-def busy_system():
-    """Run processes, threads, sleeps, calls and coroutines, and return what was seen."""
-    group = ReentrantCallbackGroup
-    with Session(seed=3) as ros:
-        ros.add(Server)
-        ros.add(lambda: Asker(group()), Beat, threads=3)
-        ros.add(Sleeper, lambda: Beat("other"))
-        ros.add(lambda: Two(group(), group()), threads=2)
-        ros.run(2.1, quiet=True)
-        ros.run(3, quiet=True)
-        return ros.observation()
-
-
-def test_every_run_is_the_same():
-    assert len({digest(busy_system()) for _ in range(8)}) == 1
 
 
 class OwnError(BaseException):

@@ -66,14 +66,6 @@ def test_a_constructor_that_calls_is_explained(ros, says):
     assert server.asked == 0
 
 
-def test_spin_until_future_complete_runs_virtual_time(ros):
-    ros.add(Server)
-    node = ros.add(lambda: Node("asker"))
-    future = node.create_client(Trigger, "ask").call_async(Trigger.Request())
-    rclpy.spin_until_future_complete(node, future)
-    assert future.result().message == "1"
-
-
 def test_tasks_that_make_tasks_for_ever_are_stopped(ros, says, monkeypatch):
     monkeypatch.setattr("rosbeat.ros.virtual_time.MOST_TURNS", 1_000)
 
@@ -102,16 +94,6 @@ def test_closing_while_a_coroutine_waits_runs_its_finally(ros):
     assert ends == ["finally"]
 
 
-def test_create_task(ros):
-    log = []
-    node = ros.add(lambda: Node("worker"))
-    task = node.executor.create_task(lambda number: log.append(number) or number, 7)
-    assert not log
-    ros.run(0)
-    assert log == [7]
-    assert task.result() == 7
-
-
 def test_a_guard_condition_runs_through_rclpy(ros):
     node = ros.add(lambda: Node("guarded"))
     log = []
@@ -123,16 +105,6 @@ def test_a_guard_condition_runs_through_rclpy(ros):
     assert [(run.node, run.time) for run in runs] == [("/guarded", n) for n in (1, 2, 3)]
 
 
-def test_an_exception_in_a_guard_condition(ros, capsys):
-    node = ros.add(lambda: Node("guarded"))
-    guard = node.create_guard_condition(lambda: 1 / 0)
-    guard.trigger()
-    ros.run(1)
-    (fault,) = ros.observation().faults
-    assert (fault.node, fault.kind, fault.callback) == ("/guarded", "ZeroDivisionError", "<lambda>")
-    capsys.readouterr()
-
-
 def test_rate_sleeps_in_virtual_time(ros):
     node = ros.add(lambda: Node("steady"))
     ticker = ros.add(partial(Ticker, 0.1))
@@ -141,26 +113,3 @@ def test_rate_sleeps_in_virtual_time(ros):
         rate.sleep()
     assert ros.time == 2.0
     assert len(ticker.fired) == 20
-
-
-def test_rate_sleep_in_a_callback_is_explained(ros, capsys):
-    def do(node):
-        node.create_rate(2.0).sleep()
-
-    ros.add(partial(Doer, do))
-    ros.run(2)
-    (fault,) = ros.observation().faults
-    assert "create a timer" in fault.text
-    capsys.readouterr()
-
-
-def test_a_coroutine_that_nobody_awaits_does_not_run(ros):
-    log = []
-
-    async def forgotten(_):
-        log.append("ran")
-
-    ros.add(partial(Doer, forgotten))
-    with pytest.warns(RuntimeWarning, match="never awaited"):
-        ros.run(1)
-    assert log == []

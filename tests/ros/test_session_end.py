@@ -9,7 +9,6 @@ import rclpy.utilities
 from nodes import Listener, Speaker, Talker
 from rosbeat import Session
 from rosbeat.errors import ClosedSessionError
-from rosbeat.ros.context import SessionContext
 
 # The end.
 
@@ -43,13 +42,6 @@ def test_a_node_that_outlives_its_session_only_fails(capfd):
     with pytest.raises(Exception, match=r"."):
         talker.talk()
     talker.destroy_node()
-
-
-def test_repr(ros):
-    assert repr(ros) == "Session(virtual time, 0 s, no nodes)"
-    ros.add(Talker)
-    ros.run(2.5)
-    assert repr(ros) == "Session(virtual time, 2.5 s, /talker)"
 
 
 # Two sessions.
@@ -91,19 +83,6 @@ def default():
     return rclpy.utilities.g_default_context
 
 
-def test_sessions_nest():
-    before = default()
-    outer = Session()
-    middle = default()
-    inner = Session()
-    assert isinstance(middle, SessionContext)
-    assert default() is not middle
-    inner.close()
-    assert default() is middle
-    outer.close()
-    assert default() is before
-
-
 def test_sessions_closed_in_any_order():
     before = default()
     sessions = [Session() for _ in range(4)]
@@ -138,8 +117,3 @@ def test_no_log_file_is_written(tmp_path, monkeypatch):
         ros.add(Speaker)
         ros.run(1, quiet=True)
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_context_cannot_be_shut_down_by_rclpy(ros):
-    rclpy.shutdown(context=ros._world.context)
-    assert ros._world.context.ok()

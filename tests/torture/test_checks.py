@@ -10,7 +10,7 @@ import pytest
 import nasty
 from torture.kernel import FULL, Kernel
 
-INTERRUPTS = 20 if FULL else 2
+INTERRUPTS = 20 if FULL else 1
 #: What is promised for one check, where the machine is not busy; else it has to answer at all.
 WITHIN = 6.0 if FULL else 30.0
 AT_ONCE = 0.8 if FULL else 5.0

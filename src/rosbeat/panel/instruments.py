@@ -13,9 +13,9 @@ from rosbeat.errors import RosbeatError, SessionError
 from rosbeat.panel.layout import NUMERIC_TYPES
 from rosbeat.panel.sampling import News
 from rosbeat.records import GraphSnapshot
-from rosbeat.ros.errors import no_such_node, node_has_ended, session_has_ended, session_is_not_live
+from rosbeat.ros.errors import no_such_node, session_has_ended, session_is_not_live
 from rosbeat.ros.launch import Maker
-from rosbeat.ros.test_nodes import Injector, TopicFault, restart_node
+from rosbeat.ros.test_nodes import Injector, TopicFault
 from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
@@ -100,17 +100,12 @@ class SessionInstruments:
     def pause(self, node: str) -> None:
         """Run none of a node's callbacks."""
         with self._acting():
-            state = find(self._world, node)
-            self._world.pause_node(state)
-            state.paused = True
+            self._world.pause(node)
 
     def resume(self, node: str) -> None:
         """Run a paused node's callbacks again."""
         with self._acting():
-            state = find(self._world, node)
-            if state.ended:
-                raise node_has_ended(state.name)
-            self._world.spin_node(state)
+            self._world.resume(node)
 
     def stop(self, node: str) -> None:
         """Destroy a node, and remember how it was made."""
@@ -126,7 +121,7 @@ class SessionInstruments:
             maker = self._maker(state) if state else self._stopped.get(node)
             if maker is None:
                 raise no_such_node(node, list(self._stopped))
-            restart_node(self._world, node, maker)
+            self._world.restart(node, maker)
             self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:

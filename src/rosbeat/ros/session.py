@@ -20,7 +20,6 @@ from rosbeat.ros.errors import (
     check_whole,
     duration_ns,
     foreign_node,
-    node_has_ended,
     node_name,
     session_has_ended,
     session_is_live,
@@ -228,9 +227,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        state = find(self._world, node)
-        self._world.pause_node(state)
-        state.paused = True
+        self._world.pause(node)
 
     @called_as('ros.resume("sensor")')
     def resume(self, node: Node | str) -> None:
@@ -242,10 +239,7 @@ class Session:
             SessionError: If the session has no such node, or it ended with an exception.
         """
         self._check_open()
-        state = find(self._world, node)
-        if state.ended:
-            raise node_has_ended(state.name)
-        self._world.spin_node(state)
+        self._world.resume(node)
 
     # Time.
 

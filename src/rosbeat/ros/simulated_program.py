@@ -18,6 +18,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
@@ -78,16 +79,11 @@ class SimulatedProgram:
         self._caught: set[int] = set()  # the signals for which rclpy's handlers are installed
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
-        # Its own modules, and those of the kernel that are not to be seen while it runs.
-        self._modules: dict[str, ModuleType] = {}
-        self._hidden: dict[str, ModuleType] = {}
-        self._known = 0
         self._outside: tuple[Any, ...] = ()
         if isinstance(self._target, Path):
             self._root = _root_of(self._target)
             parts = self._target.relative_to(self._root).with_suffix("").parts
             self._module, self._package = ".".join(parts), parts[0] if len(parts) > 1 else ""
-            self._names = {name for name, one in sys.modules.items() if self._is_own(name, one)}
 
     def __repr__(self) -> str:
         state = "running" if self.returncode is None else f"exit code {self.returncode}"
@@ -149,7 +145,7 @@ class SimulatedProgram:
         virtual.run_until(virtual.now)
 
     def enter(self) -> None:
-        """Put the program's own `sys.argv`, context, signal handlers and modules in place."""
+        """Put the program's own `sys.argv`, context, signal handlers and folder in place."""
         utilities = rclpy.utilities
         self._outside = (
             utilities.g_default_context, utilities.Context, sys.argv, signal.signal, list(sys.path),
@@ -160,9 +156,6 @@ class SimulatedProgram:
         signal.signal = self._set_handler  # type: ignore[assignment]  # `leave` puts it back
         if isinstance(self._target, Path):
             sys.path.insert(0, str(self._root))
-            self._hidden = {one: sys.modules.pop(one) for one in self._names if one in sys.modules}
-            sys.modules.update(self._modules)
-            self._known = len(sys.modules)
 
     def leave(self) -> None:
         """Put everything back; the program's own state is kept for the next time."""
@@ -172,14 +165,6 @@ class SimulatedProgram:
             self._outside
         )
         sys.path[:] = path
-        if isinstance(self._target, Path):
-            if len(sys.modules) > self._known:  # what it has imported since is at the end
-                new = list(sys.modules.items())[self._known :]
-                self._modules.update(one for one in new if self._is_own(*one))
-                self._names.update(self._modules)
-            for name in self._modules:
-                sys.modules.pop(name, None)
-            sys.modules.update(self._hidden)
 
     def shut_down(self) -> None:
         """Let a `spin` of the program return: its context was shut down."""
@@ -237,7 +222,10 @@ class SimulatedProgram:
         self._finish(self._failure or error)
 
     def _load(self) -> Callable[[], Any]:
-        """Return `main` of the file, imported afresh, as the script of an entry point does."""
+        """Return `main` of the file, imported afresh, as the script of an entry point does.
+
+        So are the modules of its own that the file imports; afterwards the kernel has its own back.
+        """
         if not isinstance(self._target, Path):
             found: Callable[[], Any] = self._target
             return found
@@ -245,10 +233,20 @@ class SimulatedProgram:
         spec = spec_from_file_location(self._module, self._target)
         assert spec is not None
         assert spec.loader is not None
+        hidden = self._take_own_modules()
         module = sys.modules[self._module] = module_from_spec(spec)
-        spec.loader.exec_module(module)
+        try:
+            spec.loader.exec_module(module)
+        finally:
+            self._take_own_modules()
+            sys.modules.update(hidden)
         main: Callable[[], Any] = module.main
         return main
+
+    def _take_own_modules(self) -> dict[str, ModuleType]:
+        """Take the program's modules out of `sys.modules`, and return them."""
+        own = [name for name, one in list(sys.modules.items()) if self._is_own(name, one)]
+        return {name: sys.modules.pop(name) for name in own}
 
     def _is_own(self, name: str, module: Any) -> bool:  # noqa: ANN401 - anything may stand there
         """Return whether a module is the program's: of its package, or from its folder.
@@ -319,8 +317,8 @@ class SimulatedProgram:
     def _finish(self, error: BaseException | None) -> None:
         code = 0
         if isinstance(error, SystemExit):
-            if isinstance(error.code, int):  # a C `long`, or -1; the system keeps its last byte
-                code = (error.code if -(2**63) <= error.code < 2**63 else -1) & 0xFF
+            if isinstance(error.code, int):
+                code = error.code & 0xFF  # as the system does
             elif error.code is not None:
                 code, self.stderr = 1, f"{error.code}\n"
         elif error is not None:
@@ -358,21 +356,14 @@ def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
 
 
 def _checked_file(name: str) -> Path:
-    meaning = "`ros.spawn` runs a program: a Python file with a function `main`."
-    try:
-        file = Path(name).expanduser().resolve()
-        exists = file.exists()
+    with suppress(OSError, ValueError):  # too long, or with a NUL character
+        file = Path(name).resolve()
         if file.is_file() and file.suffix == ".py":
             return file
-    except (OSError, ValueError, RuntimeError):  # too long, a NUL character, a user without a home
-        file, exists = Path(), False
-    shown = reprlib.repr(name)
-    if exists:
-        raise SessionError(
-            f"{shown} is not a Python file.", meaning, "Name the file itself, such as `my_node.py`."
-        )
     raise SessionError(
-        f"There is no file {shown}.", meaning, f"Check the name, and the folder `{file.parent}`."
+        f"There is no Python file {reprlib.repr(name)}.",
+        "`ros.spawn` runs a program: a Python file with a function `main`.",
+        "Check the name; it ends in `.py`, and a relative one begins at the notebook's folder.",
     )
 
 

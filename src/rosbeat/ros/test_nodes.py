@@ -11,7 +11,6 @@ from math import nan
 from random import Random
 from typing import Any, NamedTuple
 
-import rclpy.utilities
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.node import Node
@@ -20,13 +19,11 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from rclpy.timer import Timer
 from std_msgs.msg import Bool, Float32, Int32, String
 
-from rosbeat.errors import BagError, SessionError
+from rosbeat.errors import BagError
 from rosbeat.records import Observation, QoS
 from rosbeat.ros.isolation import tilt
-from rosbeat.ros.launch import Maker, build_in
 from rosbeat.ros.recording import Message, message_class
 from rosbeat.ros.session import Session
-from rosbeat.ros.world import World, state_of
 
 #: Options of a test node: the six parameter services take two thirds of the time to make a node.
 BARE = {"start_parameter_services": False}
@@ -487,22 +484,3 @@ class TopicFault:
         if self.kind == "nan":
             return type(msg)(data=nan)
         return type(msg)(data=value + self.amount) if self.kind == "offset" else msg
-
-
-def restart_node(world: World, name: str, maker: Maker) -> None:
-    """Make a node of this name as it was made before, and run its callbacks.
-
-    Raises:
-        SessionError: If another session is open.
-        NodeConstructionError: If its constructor raises.
-    """
-    # A node names no context, so it would land in the session that was opened last.
-    if rclpy.utilities.g_default_context is not world.context:
-        raise SessionError(
-            f"{name} cannot be started now.",
-            "Another session is open, and a new node would belong to that session.",
-            "Close the other session first, or wait until the running check has ended.",
-        )
-    (made,) = build_in(world, [maker.make], maker.start)
-    world.makers[made] = maker
-    world.spin_node(state_of(world, made))
