@@ -76,7 +76,7 @@ def _everything():
 
 def test_every_run_is_the_same():
     first = _everything()
-    assert [_everything() for _ in range(8)] == [first] * 8
+    assert [_everything() for _ in range(2)] == [first] * 2
 
 
 def test_the_graph_shows_an_action_and_what_it_is_made_of(ros, pair):

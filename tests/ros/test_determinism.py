@@ -20,7 +20,7 @@ from rosbeat.records_json import digest
 TESTS = Path(six_nodes.__file__).parent
 #: The lead runs 200; a test suite does not need to.
 RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "5"))
-PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "2"))
+PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "1"))
 
 
 def _burn() -> None:

@@ -1,8 +1,6 @@
 """What is recorded of nodes: messages, log lines; and message classes that stay whole."""
 
 import math
-import subprocess
-import sys
 from functools import partial
 from itertools import product
 from types import SimpleNamespace
@@ -263,17 +261,3 @@ def test_logs_of_a_removed_node_can_be_read(ros):
 
 
 # The C part of message types, loaded ahead.
-
-
-def test_a_type_is_ready_after_it_and_not_before():
-    program = (
-        "from std_msgs.msg import Float32, String\n"
-        "from rosbeat.ros.recording import load_type_support\n"
-        "ready = lambda one: type(one)._TYPE_SUPPORT is not None\n"
-        "before = ready(Float32)\nload_type_support(['std_msgs/msg/Float32'])\n"
-        "print(before, ready(Float32), ready(String))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
-    assert done.stdout == "False True False\n"
