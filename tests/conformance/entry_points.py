@@ -147,7 +147,6 @@ RUNS = {
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
         Run("arguments", "mains/arguments.py", ("one", "--ros-args", *_REMAPPED, "--", "two"),
             signal.SIGTERM, at=1.4),
-        Run("sleeping_handler", "mains/sleeping_handler.py", signal=signal.SIGTERM, at=1.5),
         Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
     ]
 }  # fmt: skip

@@ -183,8 +183,8 @@ class Session:
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
 
-        It is a process of its own, as one that `ros2 run` starts: with a default context, command
-        line and signal handlers that are its own. It goes on whenever the session runs.
+        It is a process of its own, as one that `ros2 run` starts, with its own default context and
+        command line. It goes on whenever the session runs.
 
         Args:
             program: The file, or a function such as `main`.

@@ -1,7 +1,7 @@
 """Run a file with `main()` unchanged as a simulated process, in virtual time.
 
 `rclpy.init`, `spin`, `destroy_node` and `shutdown` behave as in an operating-system process: the
-program has its own default context, arguments and signal handlers, and a freshly imported module.
+program has its own default context and arguments, and a freshly imported module.
 Ctrl+C and SIGTERM arrive at a chosen time, with the effects of rclpy's and Python's signal
 handlers: the context is shut down, and `KeyboardInterrupt` is raised where the program is (rclpy
 7.1, `signal_handler.cpp`; `tests/conformance` compares the two).
@@ -32,6 +32,7 @@ from rclpy.node import Node
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
+from rosbeat.ros.errors import note
 from rosbeat.ros.faults import error_text, fault_of
 from rosbeat.ros.processes import Call, Process
 
@@ -73,10 +74,7 @@ class SimulatedProgram:
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
         self._failure: SessionError | None = None
-        self._handlers: dict[int, Any] = {
-            signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
-        }  # fmt: skip
-        self._caught: set[int] = set()  # the signals for which rclpy's handlers are installed
+        self._has_handlers = False  # those of rclpy
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
         self._outside: tuple[Any, ...] = ()
@@ -145,7 +143,7 @@ class SimulatedProgram:
         virtual.run_until(virtual.now)
 
     def enter(self) -> None:
-        """Put the program's own `sys.argv`, context, signal handlers and folder in place."""
+        """Put the program's own `sys.argv`, context and folder in place."""
         utilities = rclpy.utilities
         self._outside = (
             utilities.g_default_context, utilities.Context, sys.argv, signal.signal, list(sys.path),
@@ -153,7 +151,7 @@ class SimulatedProgram:
         utilities.Context = self._new_context
         utilities.g_default_context = self._context
         sys.argv = self.argv
-        signal.signal = self._set_handler  # type: ignore[assignment]  # `leave` puts it back
+        signal.signal = _keep_handler  # type: ignore[assignment]  # `leave` puts it back
         if isinstance(self._target, Path):
             sys.path.insert(0, str(self._root))
 
@@ -174,7 +172,7 @@ class SimulatedProgram:
 
     def install_handlers(self) -> None:
         """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
-        self._caught = {signal.SIGINT, signal.SIGTERM}
+        self._has_handlers = True
 
     def fail(self, error: SessionError) -> None:
         """End the program with an error, from a thread of its own, as soon as `main` waits."""
@@ -190,13 +188,6 @@ class SimulatedProgram:
 
     def _new_context(self) -> ProgramContext:
         return ProgramContext(self._world, self)
-
-    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401 - as `signal.signal`
-        """Do what `signal.signal` does, for this program only."""
-        before = self._handlers.get(number, signal.SIG_DFL)
-        self._handlers[number] = handler
-        self._caught.discard(number)  # it was the process's only one
-        return before
 
     def _run(self) -> None:
         self._main = self._world.virtual.current
@@ -265,32 +256,16 @@ class SimulatedProgram:
 
     def _deliver(self, number: signal.Signals) -> None:
         """Do what the signal handlers of rclpy and of Python do."""
-        handler = self._handlers[number]
-        caught = number in self._caught and self._context is not None and self._context.ok()
+        caught = self._has_handlers and self._context is not None and self._context.ok()
         if caught:
             Context.try_shutdown(self._context)  # without waking anybody yet
-        if callable(handler):
-            virtual = self._world.virtual
-            virtual.start_main(lambda: self._handle(handler, number), self._process)
-        elif handler is signal.SIG_DFL and caught:
+        if number == signal.SIGINT:
+            self.interrupt = KeyboardInterrupt()
+            self._raise(self.interrupt)
+        elif caught:
             self._external_shutdown()
-        elif handler is signal.SIG_DFL:
+        else:
             self._end(-number)
-
-    def _handle(self, handler: Callable[..., Any], number: int) -> None:
-        """Call the program's handler, and raise what it raises where the program is."""
-        self.enter()
-        try:
-            handler(int(number), None)  # a plain number, as the system hands it over
-        except GreenletExit:
-            raise  # the program has ended while its handler slept
-        except BaseException as error:
-            raised = error.with_traceback(None)
-            if isinstance(error, KeyboardInterrupt):
-                self.interrupt = error
-            self._raise(raised)
-        finally:
-            self.leave()
 
     def _raise(self, error: BaseException) -> None:
         """Raise an exception where the main thread of the program is."""
@@ -340,6 +315,12 @@ class SimulatedProgram:
             self._world.destroy(state)
         if self._context is not None:
             Context.try_shutdown(self._context)
+
+
+def _keep_handler(number: int, handler: object) -> object:
+    """Answer `signal.signal` of a program: its signals are simulated, and the kernel's its own."""
+    note("signal.signal() has no effect here, because the session simulates a program's signals.")
+    return signal.SIG_DFL
 
 
 def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input

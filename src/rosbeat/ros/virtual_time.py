@@ -548,8 +548,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def start_main(self, main: Callable[[], None], process: Process) -> None:
         """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
-        program = process.program
-        assert program is not None
 
         def run() -> None:
             self.current = call = Call(process)
@@ -558,7 +556,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
             finally:
                 self._forget_call(call)
                 self.current = None
-                program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 
