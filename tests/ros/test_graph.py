@@ -16,7 +16,6 @@ from rosbeat import Session
 from rosbeat.domains import lease_domain
 from rosbeat.errors import DurationError, SessionError
 from rosbeat.records import QoS
-from rosbeat.ros.graph import count_participants, domains_in_use
 
 pytestmark = pytest.mark.ros
 
@@ -186,14 +185,6 @@ def test_a_node_that_is_listed_after_it_has_left_does_not_count(
 
 
 # Participants, counted by the ports that they bind.
-
-
-def test_a_session_is_counted_and_is_no_other(empty_domain):
-    with Session(domain_id=empty_domain):
-        assert count_participants(empty_domain) == 1
-        assert empty_domain not in domains_in_use()
-        with Session(domain_id=empty_domain):
-            assert count_participants(empty_domain) == 2
 
 
 # Waiting with a deadline.

@@ -7,7 +7,6 @@ import builtins
 import contextlib
 import gc
 import os
-import random
 import signal
 import sys
 import threading
@@ -15,9 +14,6 @@ import time
 import warnings
 
 import pytest
-import rclpy
-from rclpy.node import Node
-from rclpy.publisher import Publisher
 
 from rosbeat.ros.isolation import Deadline, DeadlinePassed, unharmed
 
@@ -207,19 +203,6 @@ def _do_harm(place):
     os.chdir("/")
     place.rmdir()
     raise ZeroDivisionError
-
-
-@pytest.mark.parametrize(
-    ("owner", "name"),
-    [(time, "sleep"), (time, "monotonic"), (random, "uniform"), (random, "setstate"),
-     (rclpy, "init"), (Node, "create_timer"), (Publisher, "publish")],
-    ids=lambda one: getattr(one, "__name__", one),
-)  # fmt: skip
-def test_names_of_others_are_put_back(owner, name):
-    before = vars(owner)[name]
-    with unharmed():
-        setattr(owner, name, None)
-    assert vars(owner)[name] is before
 
 
 def test_traces_and_collection_are_put_back():

@@ -276,14 +276,6 @@ def in_thread(do):
     return raised
 
 
-def test_a_session_runs_in_whichever_thread_calls_it(ros):
-    ros.add(Beat)
-    ros.run(1)
-    assert not in_thread(lambda: ros.run(1))
-    ros.run(1)
-    assert times(ros, "beat") == [0.5, 1, 1.5, 2, 2.5, 3]
-
-
 def test_a_callback_that_waits_goes_on_in_its_own_thread(ros, says):
     ros.add(Sleeper)
     ros.run(1.5)
@@ -458,25 +450,3 @@ def test_what_python_refuses_to_sleep_for_is_refused(ros, span):
     refused = ros.spawn(lambda: time.sleep(span))
     assert refused.returncode == 1
     assert refused.stderr.endswith(f"{real.typename}: {real.value}\n")
-
-
-def test_an_interrupt_ends_a_sleep(ros, monkeypatch):
-    node = ros.add(lambda: Node("napper"))
-    ros.add(Beat)
-    timer = node.create_timer(1.0, lambda: time.sleep(1000))
-    stopper = ros.add(lambda: Node("stopper"))
-
-    def stop():
-        raise KeyboardInterrupt
-
-    stopper.create_timer(5.0, stop)
-    with pytest.raises(KeyboardInterrupt):
-        ros.run(seconds=20)
-    assert ros.time == 5
-    assert time.sleep is sleep
-    timer.cancel()
-    ros.remove(stopper)
-    with Session() as other:
-        other.run(seconds=1)
-    ros.run(seconds=2)
-    assert times(ros, "beat")[-1] == 7

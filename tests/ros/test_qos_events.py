@@ -134,23 +134,6 @@ def test_a_message_exactly_at_the_deadline_is_in_time(ros):
     assert len(nurse.heard) == 10
 
 
-def test_an_exception_in_it_ends_the_node_and_its_deadline(ros, capsys):
-    class Faint(Nurse):
-        def on_missed(self, info):
-            super().on_missed(info)
-            raise ValueError("faint")
-
-    nurse = ros.add(lambda: Faint(quality(1.0)))
-    heart = ros.add(lambda: Heart(quality(1.0)))
-    heart.beat(1)
-    ros.run(5)
-    (fault,) = ros.observation().faults
-    assert (fault.callback, fault.kind, fault.time) == ("on_missed", "ValueError", 1.0)
-    assert len(nurse.missed) == 1
-    assert len(heart.missed) == 5
-    capsys.readouterr()
-
-
 def test_live_time_is_not_counted_and_virtual_time_begins_with_a_message(ros):
     nurse = ros.add(lambda: Nurse(quality(0.05)))
     heart = ros.add(lambda: Heart(quality(0.05)))

@@ -78,18 +78,6 @@ def test_a_function_an_instance_and_a_name_that_somebody_has(ros):
         assert not seen.faults
 
 
-def test_values_that_are_not_finite_bursts_and_other_types():
-    odd = [float("nan"), float("inf"), -float("inf"), 26.0]
-    feeds = [
-        feeder("f", "in", "std_msgs/msg/Float32", odd, burst=4, period=0.5),
-        feeder("g", "other", "geometry_msgs/msg/Point", [{"x": 1.0}]),
-    ]
-    seen = observe(Echo, 2, others=feeds)
-    values = [(s.time, repr(s.value)) for s in seen.samples if s.topic == "/echo"]
-    assert values == [(0.5, "nan"), (0.5, "inf"), (0.5, "-inf"), (0.5, "26.0")]
-    assert seen.samples[-1].data == {"x": 1.0, "y": 0.0, "z": 0.0}
-
-
 class Dialled(Echo):
     """Has a parameter that may not be negative."""
 

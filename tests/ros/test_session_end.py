@@ -92,12 +92,6 @@ def test_sessions_closed_in_any_order():
     assert default() is before
 
 
-def test_a_session_closed_while_another_runs(ros):
-    inner = Session()
-    ros.add(lambda: (inner.close(), Talker())[1])
-    assert default() is ros._world.context
-
-
 def test_an_ended_context_keeps_nothing_alive():
     with Session() as first:
         context = default()
