@@ -119,12 +119,6 @@ class Clinging(Base):
         loop()
 
 
-class Shadowed(Base):
-    """Has properties where rclpy has some."""
-
-    publishers = property(loop)
-
-
 class Own(BaseException):
     """An exception that `except Exception` does not catch."""
 
@@ -172,13 +166,6 @@ def stubborn_prints(node):
     for _ in range(30):
         print("from a thread", flush=True)
         time.sleep(0.01)
-
-
-def stubborn_publishes(node):
-    with contextlib.suppress(Exception):
-        while True:
-            node.publisher.publish(Float32(data=1.0))
-            time.sleep(0.001)
 
 
 def ignores_signals(node):

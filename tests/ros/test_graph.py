@@ -13,9 +13,10 @@ from std_srvs.srv import Trigger
 from nodes import Doer, Listener, Server, Talker
 from other_process import other_process
 from rosbeat import Session
-from rosbeat.domains import lease_domain
+from rosbeat.domains import lease_domain, participants, udp_ports
 from rosbeat.errors import DurationError, SessionError
 from rosbeat.records import QoS
+from rosbeat.ros.graph import count_participants, domains_in_use
 
 pytestmark = pytest.mark.ros
 
@@ -187,4 +188,26 @@ def test_a_node_that_is_listed_after_it_has_left_does_not_count(
 # Participants, counted by the ports that they bind.
 
 
-# Waiting with a deadline.
+def row(port, user=1000, inode=1):
+    """Return what the system says of a socket."""
+    return f"  1: 00000000:{port:04X} 00000000:0000 07 00000000:0 00:0 0 {user} 0 {inode} 2 0 0"
+
+
+@pytest.mark.parametrize(
+    ("rows", "ignored", "found"),
+    [
+        ([row(9160), row(9161)], (), [1000]),
+        ([row(9160), row(9161), row(9162), row(9163, 1001)], (), [1000]),
+        ([row(9160)], (), []),
+        ([row(9160), row(9161)], ["1"], []),
+    ],
+)
+def test_a_participant_holds_two_ports_of_one_user(rows, ignored, found):
+    table = "\n".join(["  sl  local_address rem_address", *rows])
+    assert participants(7, udp_ports(table, ignored)) == found
+
+
+def test_a_session_is_counted_and_is_no_other(empty_domain):
+    with Session(domain_id=empty_domain):
+        assert count_participants(empty_domain) == 1
+        assert empty_domain not in domains_in_use()
