@@ -350,7 +350,7 @@ class Raising(LoggedNode):
             raise ValueError("three is too many")
 
 
-@case(2.8)
+@case(2.7)
 def exception_with_two_nodes() -> list[Process]:
     """An exception ends the whole process, with all its nodes, and other processes go on."""
     return [Process((Raising, Beat)), Process((other_beat,))]
