@@ -1,4 +1,4 @@
-"""`ros.explain` in sessions: what they see of themselves."""
+"""`ros.explain`: what sessions see of themselves, and of nodes in other processes."""
 
 import time
 from functools import partial
@@ -8,11 +8,16 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from std_msgs.msg import Int32
 
 from nodes import Doer, Listener, Talker
+from other_process import other_process
 from rosbeat import Session
 from rosbeat.diagnosis.silence import Explanation
+from rosbeat.domains import lease_domain
 from rosbeat.errors import SessionError
+from rosbeat.records import is_hidden
 
 pytestmark = pytest.mark.ros
+
+
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -184,3 +189,60 @@ def test_a_bad_name_gets_three_parts(ros, says, name):
     with pytest.raises(SessionError) as caught:
         ros.explain(name)
     says(caught.value, "cannot be the name of a topic", "topic name must not")
+
+
+# Nodes of other processes: what arrives from them, and whether they answer.
+
+
+#: The second one is in the graph and nobody spins it.
+NODES = (
+    "Talker(period=0.1), *(kept := [Listener('deaf', 'count'), Talker('quiet', 'hush')])[2:], "
+    "Listener(topic='cuont'), Listener(topic='hush'), Words(topic='words'),"
+)
+
+
+@pytest.fixture(scope="module")
+def domain():
+    lease = lease_domain()
+    with other_process(lease.domain_id, NODES):
+        yield lease.domain_id
+    lease.release()
+
+
+@pytest.fixture
+def joined(domain):
+    with Session(domain_id=domain) as session:
+        yield session
+
+
+def mistakes(found):
+    return [one.mistake for one in found.diagnoses] or [found.verdict]
+
+
+def test_a_node_that_is_not_spun_hears_nothing(joined):
+    found = joined.explain("count", seconds=20)
+    assert mistakes(found) == ["not-spun"]
+    assert found.headlines == ("/deaf does not answer",)
+    assert found.rate_hz > 0
+
+
+def test_a_node_that_is_not_spun_says_nothing(joined):
+    found = joined.explain("hush", seconds=0.5)
+    assert mistakes(found) == ["not-spun"]
+    assert found.headlines == ("/quiet does not answer",)
+
+
+def test_an_own_node_hears_them(joined):
+    listener = joined.add(partial(Listener, "own", "words"))
+    assert listener.heard == []
+    found = joined.explain("words", seconds=20)
+    assert mistakes(found) == ["type-mismatch"]
+    assert "/words publishes String, and /own subscribes to Int32" in found.diagnoses[0].evidence
+
+
+def test_nothing_is_left_behind(joined, eventually):
+    hidden = lambda: [name for name in joined._world.graph_observer.nodes() if is_hidden(name)]  # noqa: E731
+    before = hidden()
+    joined.explain("cuont", seconds=0)
+    eventually(lambda: hidden() == before, 30)
+    assert joined.nodes == ()

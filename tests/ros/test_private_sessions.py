@@ -19,6 +19,7 @@ from rosbeat.domains import SESSION_DOMAINS
 
 pytestmark = pytest.mark.ros
 
+
 #: So many that two of one process share a domain.
 SHARING = len(SESSION_DOMAINS) + 1
 
@@ -128,3 +129,56 @@ def test_sessions_of_several_processes_hear_only_themselves_and_leave_nothing_be
         process.send_signal(signal.SIGKILL)
         process.wait()
         eventually(lambda: not held & bound())
+
+
+# The same topic with another type in a session beside: in a process of its own, for what this is
+# about would end the tests (see `fastdds.xml`).
+
+
+TWO_TYPES = """
+from rclpy.node import Node
+from rosbeat import Session
+from rosbeat.ros.scenario import observe
+from std_msgs.msg import Float32, Float64, String
+
+class Sensor(Node):
+    kind, value = Float32, 21.5
+
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(self.kind, "temperature", 10)
+        self.heard = self.create_subscription(self.kind, "temperature", self.hear, 10)
+        self.create_timer(1.0, self.tick)
+        self.sum = 0
+
+    def tick(self):
+        self.publisher_.publish(self.kind(data=self.value))
+
+    def hear(self, message):
+        self.sum += message.data == self.value
+
+class Wide(Sensor):
+    kind = Float64
+
+class Words(Sensor):
+    kind, value = String, "x" * 10_000
+
+first = Session()
+sensor = first.add(Sensor)
+first.run(10, quiet=True)
+for other in (Wide, Words, Sensor, Wide):
+    print(len(observe(other, 5).samples), end=" ")
+with Session() as second:
+    words = second.add(Words)
+    second.run(5, quiet=True)
+    first.run(5, quiet=True)
+    print(words.sum, sensor.sum, len(first.messages("temperature")), end=" ")
+first.close()
+print("closed")
+"""
+
+
+def test_each_session_hears_its_own():
+    done = subprocess.run([sys.executable, "-c", TWO_TYPES], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, "5 5 5 5 5 15 15 closed\n"), done.stderr
+    assert not done.stderr
