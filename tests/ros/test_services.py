@@ -94,6 +94,16 @@ def test_closing_while_a_coroutine_waits_runs_its_finally(ros):
     assert ends == ["finally"]
 
 
+def test_create_task(ros):
+    log = []
+    node = ros.add(lambda: Node("worker"))
+    task = node.executor.create_task(lambda number: log.append(number) or number, 7)
+    assert not log
+    ros.run(0)
+    assert log == [7]
+    assert task.result() == 7
+
+
 def test_rate_sleeps_in_virtual_time(ros):
     node = ros.add(lambda: Node("steady"))
     ticker = ros.add(partial(Ticker, 0.1))
