@@ -104,6 +104,27 @@ def test_create_task(ros):
     assert task.result() == 7
 
 
+def test_a_guard_condition_runs_through_rclpy(ros):
+    node = ros.add(lambda: Node("guarded"))
+    log = []
+    guard = node.create_guard_condition(lambda: log.append(ros.time))
+    ros.add(partial(Doer, lambda _: guard.trigger()))
+    ros.run(3)
+    assert log == [1, 2, 3]
+    runs = [run for run in ros.observation().callbacks if run.kind == "guard condition"]
+    assert [(run.node, run.time) for run in runs] == [("/guarded", n) for n in (1, 2, 3)]
+
+
+def test_an_exception_in_a_guard_condition(ros, capsys):
+    node = ros.add(lambda: Node("guarded"))
+    guard = node.create_guard_condition(lambda: 1 / 0)
+    guard.trigger()
+    ros.run(1)
+    (fault,) = ros.observation().faults
+    assert (fault.node, fault.kind, fault.callback) == ("/guarded", "ZeroDivisionError", "<lambda>")
+    capsys.readouterr()
+
+
 def test_rate_sleeps_in_virtual_time(ros):
     node = ros.add(lambda: Node("steady"))
     ticker = ros.add(partial(Ticker, 0.1))
