@@ -8,7 +8,6 @@ from __future__ import annotations
 import builtins
 import contextlib
 import os
-import queue
 import re
 import signal
 import subprocess
@@ -99,17 +98,6 @@ def spins_alone(node):
     executor.spin()
 
 
-class Loud(Base):
-    """Has a property that never returns."""
-
-    @property
-    def temperature(self):
-        return loop()
-
-    def act(self):
-        return self.temperature
-
-
 class Deadly(Base):
     """Is never quite gone."""
 
@@ -129,12 +117,6 @@ class Clinging(Base):
 
     def destroy_node(self):
         loop()
-
-
-class Shadowed(Base):
-    """Has properties where rclpy has some."""
-
-    publishers = property(loop)
 
 
 class Own(BaseException):
@@ -186,13 +168,6 @@ def stubborn_prints(node):
         time.sleep(0.01)
 
 
-def stubborn_publishes(node):
-    with contextlib.suppress(Exception):
-        while True:
-            node.publisher.publish(Float32(data=1.0))
-            time.sleep(0.001)
-
-
 def ignores_signals(node):
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGALRM, signal.SIG_IGN)
@@ -213,11 +188,9 @@ def changes_everything(node):
 ENDLESS = {
     "loop in a callback": doing(loop),
     "loop in the constructor": born(loop),
-    "loop in a property": Loud,
     "loop that catches everything": doing(swallow),
     "the same with suppress": born(suppress),
     "sleep in a thread's wait": doing(lambda _: threading.Event().wait()),
-    "queue": doing(lambda _: queue.Queue().get()),
     "subprocess": doing(lambda _: subprocess.run(["sleep", "1000"])),
     "regular expression": doing(lambda _: re.match(r"(a+)+$", "a" * 40 + "b")),
     "numbers": doing(lambda _: 7 ** (10**9)),
@@ -240,25 +213,18 @@ RAISING = {
     "sys.exit in a callback": (doing(lambda _: sys.exit(3)), "SystemExit"),
     "sys.exit in the constructor": (born(lambda _: sys.exit(3)), "SystemExit"),
     "its own BaseException": (doing(raising(Own())), "Own"),
-    "its own BaseException at birth": (born(raising(Own())), "Own"),
     "KeyboardInterrupt": (doing(raising(KeyboardInterrupt())), "KeyboardInterrupt"),
     "GeneratorExit": (doing(raising(GeneratorExit())), "GeneratorExit"),
     "no text": (doing(raising(Unprintable())), "Unprintable"),
     "recursion": (doing(recursive), "RecursionError"),
-    "memory": (doing(lambda _: [0] * 10**13), "MemoryError"),
     "input": (doing(lambda _: input("?")), "EOFError"),
     "sleep without end at birth": (born(lambda _: time.sleep(1000)), "DeadlinePassed"),
     "sleep without end": (doing(lambda _: time.sleep(1000)), "DeadlinePassed"),
-    "sleep in a loop at birth": (
-        born(lambda _: [time.sleep(1) for _ in iter(int, 1)]),
-        "DeadlinePassed",
-    ),
     "publisher destroyed": (
         doing(lambda node: node.publisher.destroy()),
         "InvalidHandle",
     ),
     "spins in the constructor": (born(rclpy.spin), "SessionError"),
-    "init in the constructor": (born(lambda _: rclpy.init()), "RuntimeError"),
     "init in a callback": (doing(lambda _: rclpy.init()), "RuntimeError"),
     "metaclass": (NoNode, "NodeClassError"),
 }

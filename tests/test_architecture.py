@@ -48,8 +48,6 @@ MAY_IMPORT = {
     "new_command": {"errors"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
-    # The import line of page 07.
-    "scenarios": {"ros"},
     "exercises": {
         *("ros", "records", "records_json", "comparisons", "errors", "viz", "workspace"),
         *("diagnosis", "environment", "rosbeat", "bags", "clinic"),

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +17,6 @@ from rosbeat.ros.world import World, full_topic
 
 #: The last domain id that there is (RTPS specification, section 9.6.1).
 _LAST_DOMAIN = 232
-_CLEAR = "\r\x1b[K"
 
 
 def explain_domain(
@@ -29,7 +27,7 @@ def explain_domain(
 ) -> Explanation:
     """Say why nothing arrives on a topic in a domain, as a node that joins it for a while.
 
-    Meanwhile a terminal shows one line on the standard error stream.
+    A terminal shows one line on the standard error stream first.
 
     Args:
         topic: The topic's name, with or without its slash.
@@ -45,12 +43,13 @@ def explain_domain(
     except SessionError as error:
         raise CommandError(error.what, error.means, error.to_try) from None
     domain = _checked_domain(domain_id)
-    with _progress(f"Looking at {name} in ROS domain {domain} ..."):
-        world = World(0, domain)
-        try:
-            scene = inspect_topic(world, name, span)
-        finally:
-            world.close()
+    if sys.stderr.isatty():
+        print(f"Looking at {name} in ROS domain {domain} ...", file=sys.stderr)
+    world = World(0, domain)
+    try:
+        scene = inspect_topic(world, name, span)
+    finally:
+        world.close()
     return explain(name, replace(scene, stale_builds=stale_builds(name)))
 
 
@@ -65,15 +64,3 @@ def _checked_domain(given: int | None) -> int:
         f"It says which processes see each other, and is a whole number from 0 to {_LAST_DOMAIN}.",
         "Look at the number of the node's terminal: `echo $ROS_DOMAIN_ID`.",
     )
-
-
-@contextmanager
-def _progress(text: str) -> Iterator[None]:
-    if not sys.stderr.isatty():
-        yield
-        return
-    try:  # an interrupt may come as soon as somebody can read the line
-        print(text, end="", file=sys.stderr, flush=True)
-        yield
-    finally:
-        print(_CLEAR, end="", file=sys.stderr, flush=True)

@@ -10,8 +10,6 @@ from rclpy.callback_groups import (
     ReentrantCallbackGroup,
 )
 from rclpy.clock import Clock, ClockType
-from rclpy.parameter import Parameter
-from rclpy.parameter_client import AsyncParameterClient
 from rclpy.task import Future
 from std_msgs.msg import Int32
 from test_msgs.srv import BasicTypes
@@ -24,6 +22,7 @@ from conformance.programs import (
     LoggedNode,
     Process,
     case,
+    other_beat,
     sum_of,
 )
 
@@ -37,15 +36,9 @@ class SleeperAt700(LoggedNode):
 
 
 @case(2.9)
-def sleep_in_one_process() -> list[Process]:
-    """A callback that sleeps holds up the other node of its process; its timer keeps its grid."""
-    return [Process((SleeperAt700, Beat))]
-
-
-@case(2.9)
-def sleep_in_two_processes() -> list[Process]:
-    """A callback that sleeps does not hold up another process."""
-    return [Process((SleeperAt700,)), Process((Beat,))]
+def sleep_in_a_callback() -> list[Process]:
+    """A callback that sleeps holds up its process, whose timers keep their grid, and no other."""
+    return [Process((SleeperAt700, Beat)), Process((other_beat,))]
 
 
 @case(4.0, global_order=True)
@@ -63,23 +56,6 @@ def overlapping_sleeps_in_two_processes() -> list[Process]:
             self.once(1.0, lambda: self.sleep(0.5))
 
     return [Process((Long,)), Process((Short,))]
-
-
-@case(2.8, global_order=True)
-def overlapping_sleeps_in_one_process() -> list[Process]:
-    """In one process there is no overlap: the second sleep begins when the first has ended."""
-
-    class First(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("first")
-            self.once(0.5, lambda: self.sleep(1.0))
-
-    class Second(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("second")
-            self.once(0.9, lambda: self.sleep(0.7))
-
-    return [Process((First, Second))]
 
 
 @case(2.4, global_order=True)
@@ -122,12 +98,6 @@ class BurstTalker(LoggedNode):
         for number, topic in enumerate("abcaab", start=1):
             self.note(f"publishes {number} to {topic}")
             self.talkers[topic].publish(Int32(data=number))
-
-
-@case(1.8, global_order=True)
-def burst_in_one_process() -> list[Process]:
-    """Of messages that are ready together, one of each subscription, in order of creation."""
-    return [Process((BurstTalker, BurstListener))]
 
 
 @case(2.4)
@@ -201,48 +171,6 @@ def timer_cancelled_and_reset() -> list[Process]:
             self.once(1.75, lambda: (self.note("reset"), self.timer.reset()))
 
     return [Process((Switch,))]
-
-
-@case(2.5)
-def timer_made_in_a_callback() -> list[Process]:
-    """A timer that a callback makes counts from there."""
-
-    class Maker(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("maker")
-            self.once(0.7, lambda: (self.note("makes"), self.every(0.4)))
-
-    return [Process((Maker,))]
-
-
-@case(2.2)
-def timer_without_autostart() -> list[Process]:
-    """A timer that is made stopped begins when it is reset."""
-
-    class Patient(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("patient")
-            self.timer = self.create_timer(0.5, lambda: self.note("beat"), autostart=False)
-            self.once(0.9, lambda: (self.note("reset"), self.timer.reset()))
-
-    return [Process((Patient,))]
-
-
-@case(2.3)
-def timer_cancelled_by_the_one_before() -> list[Process]:
-    """A timer that is cancelled by another that was due with it does not run."""
-
-    class Pair(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("pair")
-            self.create_timer(1.0, self.cancel)
-            self.second = self.create_timer(1.0, lambda: self.note("second"))
-
-        def cancel(self) -> None:
-            self.note("cancels the second")
-            self.second.cancel()
-
-    return [Process((Pair,))]
 
 
 @case(2.3)
@@ -340,24 +268,6 @@ def node_destroyed_in_a_callback() -> list[Process]:
     return [Process((Victim, Destroyer))]
 
 
-@case(2.5)
-def messages_after_a_sleep_and_a_timer() -> list[Process]:
-    """A timer that is always late does not keep messages from being handled."""
-
-    class Busy(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("busy")
-            self.hear("number")
-            self.create_timer(0.3, lambda: self.sleep(0.5))
-
-    class Talker(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("talker")
-            self.publish_at(0.5, "number", 1, 2, 3)
-
-    return [Process((Busy,)), Process((Talker,))]
-
-
 @case(2.4, global_order=True)
 def threads_default_group() -> list[Process]:
     """Two callbacks of a node's default group do not overlap, however many threads there are."""
@@ -383,23 +293,6 @@ def threads_two_groups() -> list[Process]:
             self.once(0.9, lambda: self.sleep(0.8, "second"), groups[1])
 
     return [Process((Pair,), threads=4)]
-
-
-@case(2.4, global_order=True)
-def threads_two_nodes() -> list[Process]:
-    """Two nodes have two default groups, so their callbacks overlap."""
-
-    class First(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("first")
-            self.once(0.5, lambda: self.sleep(0.8))
-
-    class Second(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("second")
-            self.once(0.9, lambda: self.sleep(0.8))
-
-    return [Process((First, Second), threads=4)]
 
 
 @case(3.5, global_order=True)
@@ -442,61 +335,6 @@ def threads_more_ready_than_threads() -> list[Process]:
     return [Process((Four,), threads=2)]
 
 
-@case(2.9, global_order=True)
-def threads_reentrant_subscription() -> list[Process]:
-    """A subscription in a reentrant group overlaps itself, too."""
-
-    class Listener(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("listener")
-            self.create_subscription(
-                Int32, "number", self.on_number, 10, callback_group=ReentrantCallbackGroup()
-            )
-
-        def on_number(self, message: Int32) -> None:
-            self.sleep(1.0, f"message {message.data}")
-
-    class Talker(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("talker")
-            self.publish_at(0.5, "number", 1)
-            self.publish_at(1.0, "number", 2)
-
-    return [Process((Talker,)), Process((Listener,), threads=4)]
-
-
-@case(2.2)
-def threads_order_after_a_sleep() -> list[Process]:
-    """With threads, too, a timer comes before a message when a callback group is free again."""
-
-    class Busy(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("busy")
-            self.hear("number")
-            self.once(0.4, lambda: self.sleep(1.0))
-            self.once(1.0, lambda: self.sleep(0.4, "timer"))
-
-    class Talker(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("talker")
-            self.publish_at(0.7, "number", 1, 2)
-
-    return [Process((Busy,), threads=4), Process((Talker,))]
-
-
-@case(2.6)
-def threads_late_timer() -> list[Process]:
-    """In the default group of a multi-threaded process a timer is late, and finds its grid."""
-
-    class Late(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("late")
-            self.every(0.4)
-            self.once(0.6, lambda: self.sleep(1.1))
-
-    return [Process((Late,), threads=4)]
-
-
 class Raising(LoggedNode):
     """Raises in its third callback."""
 
@@ -513,15 +351,9 @@ class Raising(LoggedNode):
 
 
 @case(2.7)
-def exception_in_a_callback() -> list[Process]:
-    """An exception ends its process, and other processes go on."""
-    return [Process((Raising,)), Process((Beat,))]
-
-
-@case(2.8)
 def exception_with_two_nodes() -> list[Process]:
-    """An exception ends the whole process, with all its nodes."""
-    return [Process((Raising, Beat))]
+    """An exception ends the whole process, with all its nodes, and other processes go on."""
+    return [Process((Raising, Beat)), Process((other_beat,))]
 
 
 @case(3.2, differs="rclpy raises it when the next callback is handed out; a session does at once.")
@@ -563,33 +395,6 @@ def exception_in_a_service() -> list[Process]:
             future.add_done_callback(lambda done: self.note_response(done.result()))
 
     return [Process((Asker,)), Process((Refusing,))]
-
-
-@case(2.4, global_order=True)
-def relay_over_processes() -> list[Process]:
-    """A message goes through three processes; the second takes its time."""
-
-    class Source(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("source")
-            self.publish_at(0.5, "first", 1)
-
-    class Relay(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("relay")
-            self.publisher = self.create_publisher(Int32, "second", 10)
-            self.create_subscription(Int32, "first", self.relay, 10)
-
-        def relay(self, message: Int32) -> None:
-            self.sleep(0.7)
-            self.publisher.publish(message)
-
-    class Sink(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("sink")
-            self.hear("second")
-
-    return [Process((Source,)), Process((Relay,)), Process((Sink,))]
 
 
 @case(2.4)
@@ -650,36 +455,6 @@ def guard_condition() -> list[Process]:
     return [Process((Guarded,))]
 
 
-@case(2.4)
-def parameter_of_another_node() -> list[Process]:
-    """A parameter is set by another process, through the node's parameter services."""
-
-    class Thermostat(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("thermostat")
-            self.declare_parameter("limit", 1)
-            self.add_post_set_parameters_callback(self.on_set)
-            self.create_timer(0.7, lambda: self.note(f"limit {self.get_parameter('limit').value}"))
-
-        def on_set(self, parameters: list[Parameter]) -> None:
-            self.note(f"{parameters[0].name} is set to {parameters[0].value}")
-
-    class Setter(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("setter")
-            self.parameters = AsyncParameterClient(self, "thermostat")
-            self.once(1.0, self.set)
-
-        def set(self) -> None:
-            self.note("sets")
-            future = self.parameters.set_parameters([Parameter("limit", value=5)])
-            future.add_done_callback(
-                lambda done: self.note(f"successful {done.result().results[0].successful}")
-            )
-
-    return [Process((Thermostat,)), Process((Setter,))]
-
-
 @case(2.6)
 def subscription_destroyed_in_its_callback() -> list[Process]:
     """A subscription that its own callback destroys gets nothing more, not even what is queued."""
@@ -695,24 +470,3 @@ def subscription_destroyed_in_its_callback() -> list[Process]:
             self.destroy_subscription(self.subscription)
 
     return [Process((Burst,)), Process((Once,))]
-
-
-@case(2.4)
-def two_subscriptions_of_one_topic() -> list[Process]:
-    """Two subscriptions of a node to one topic take turns."""
-
-    class Twice(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("twice")
-            for name in ("first", "second"):
-                self.create_subscription(
-                    Int32, "number", lambda m, name=name: self.note(f"{name} {m.data}"), 10
-                )
-            self.once(0.5, lambda: self.sleep(0.7))
-
-    class Three(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("talker")
-            self.publish_at(0.8, "number", 1, 2, 3)
-
-    return [Process((Three,)), Process((Twice,))]

@@ -18,7 +18,6 @@ from std_msgs.msg import Int32
 from test_msgs.action import Fibonacci
 
 from conformance.programs import (
-    Beat,
     Burst,
     LoggedNode,
     Process,
@@ -124,21 +123,6 @@ def action_canceled() -> list[Process]:
 
 
 @case(3.4)
-def action_canceled_in_a_single_thread() -> list[Process]:
-    """A server in a single thread sees the cancel request when the goal is over: too late."""
-
-    class Canceling(FibonacciClient):
-        order = 4
-        cancel_after = 1.0
-
-        def on_canceled(self, future: Future) -> None:
-            # It comes together with the result, in either order.
-            self.once(0.4, lambda: super(Canceling, self).on_canceled(future))
-
-    return [Process((Canceling,)), Process((FibonacciServer,))]
-
-
-@case(3.4)
 def action_two_goals() -> list[Process]:
     """A second goal waits for the first in a single thread."""
 
@@ -154,23 +138,6 @@ def action_two_goals() -> list[Process]:
             self.once(0.9, self.send)
 
     return [Process((FibonacciClient,)), Process((Second,)), Process((Short,))]
-
-
-@case(3.3)
-def action_wait_in_vain() -> list[Process]:
-    """`wait_for_server` with a timeout in a callback returns False, and the node goes on."""
-
-    class Waiter(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("waiter")
-            self.client = ActionClient(self, Fibonacci, "fibonacci")
-            self.every(0.4)
-            self.once(0.5, self.wait)
-
-        def wait(self) -> None:
-            self.note(f"server {self.client.wait_for_server(timeout_sec=2.0)}")
-
-    return [Process((Waiter,)), Process((Beat,))]
 
 
 @case(2.4)
@@ -226,28 +193,6 @@ def late_joiner() -> list[Process]:
     return [Process((Storing,)), Process((LateListener,), start=1.5)]
 
 
-@case(3.6)
-def late_joiner_to_volatile() -> list[Process]:
-    """A late-joining subscription without stored messages gets the new ones."""
-
-    class VolatileListener(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("listener")
-            self.hear("number")
-
-    return [Process((Storing,)), Process((VolatileListener,), start=1.5)]
-
-
-@case(3.6, tolerance=LATE_JOINER)
-def late_joiner_after_the_lifespan() -> list[Process]:
-    """What was stored is dropped after the publisher's lifespan."""
-
-    class Brief(Storing):
-        lifespan = 0.5
-
-    return [Process((Brief,)), Process((LateListener,), start=1.9)]
-
-
 @case(2.8)
 def queue_overflow() -> list[Process]:
     """A subscription with depth 2 whose process sleeps keeps the last two messages."""
@@ -259,18 +204,6 @@ def queue_overflow() -> list[Process]:
             self.once(0.5, lambda: self.sleep(1.0))
 
     return [Process((Burst,)), Process((Slow,))]
-
-
-@case(2.8)
-def queue_overflow_in_one_process() -> list[Process]:
-    """The same in one process, where publishing itself holds up the subscription."""
-
-    class Listener(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("listener")
-            self.hear("number", 2)
-
-    return [Process((Burst, Listener))]
 
 
 @case(2.8)

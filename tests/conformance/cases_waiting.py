@@ -128,35 +128,6 @@ def call_with_timeout_in_a_single_thread() -> list[Process]:
     return [Process((Patient,)), Process((Adder,))]
 
 
-@case(3.0)
-def call_with_timeout_to_a_slow_server() -> list[Process]:
-    """`call` gives up before the server answers; the answer that comes later is dropped."""
-
-    class Patient(CallingInOwnGroup):
-        timeout = 0.6
-
-    return [Process((Patient,), threads=4), Process((AdderOfASecond,))]
-
-
-@case(3.4)
-def two_clients_of_a_slow_server() -> list[Process]:
-    """A server in a single thread answers one request after the other."""
-
-    class Second(CallingInOwnGroup):
-        def __init__(self) -> None:
-            super().__init__("second")
-
-        def ask(self) -> None:
-            time.sleep(0.4)
-            super().ask()
-
-    return [
-        Process((CallingInOwnGroup,), threads=4),
-        Process((Second,), threads=4),
-        Process((AdderOfASecond,)),
-    ]
-
-
 @case(2.2)
 def server_with_threads() -> list[Process]:
     """A reentrant service handles two requests at once."""
@@ -262,23 +233,6 @@ def wait_for_service_in_vain() -> list[Process]:
     return [Process((Waiter,)), Process((Beat,))]
 
 
-@case(3.2, tolerance=FOUND)
-def wait_for_service_that_comes() -> list[Process]:
-    """`wait_for_service` in a callback returns True soon after the server has started."""
-
-    class Waiter(AddingNode):
-        def __init__(self) -> None:
-            super().__init__("waiter")
-            self.once(0.5, self.wait)
-
-        def wait(self) -> None:
-            self.note("waits")
-            self.note(f"service {self.client.wait_for_service()}")
-            self.once(0.3, lambda: self.note("timer"))
-
-    return [Process((Waiter,)), Process((Adder,), start=1.53)]
-
-
 class NestedSpin(AddingNode):
     """Spins inside a callback until a response has come."""
 
@@ -304,22 +258,10 @@ class NestedSpinReentrant(NestedSpin):
     reentrant = True
 
 
-class NestedSpinForever(NestedSpin):
-    """It waits without a timeout."""
-
-    timeout = None
-
-
 @case(3.4)
 def nested_spin_in_the_default_group() -> list[Process]:
     """Inside a callback of the client's own group, no response comes before the timeout."""
     return [Process((NestedSpin,)), Process((Adder,))]
-
-
-@case(3.4)
-def nested_spin_forever() -> list[Process]:
-    """Without a timeout it never ends; callbacks of other groups run on inside it."""
-    return [Process((NestedSpinForever,)), Process((Adder,))]
 
 
 @case(3.4)
@@ -332,12 +274,6 @@ def nested_spin_in_a_reentrant_group() -> list[Process]:
 def nested_spin_with_an_executor_of_its_own() -> list[Process]:
     """The same where the process has an executor of its own: afterwards nobody spins the node."""
     return [Process((NestedSpinReentrant, Beat)), Process((AdderOfHalfASecond,))]
-
-
-@case(3.4)
-def nested_spin_with_threads() -> list[Process]:
-    """The same with threads: the global executor takes the node away from its own for good."""
-    return [Process((NestedSpinReentrant,), threads=4), Process((AdderOfHalfASecond,))]
 
 
 @case(3.4, tolerance=FOUND)
@@ -383,29 +319,6 @@ def client_with_timeouts() -> list[Process]:
             node.note(f"done {[future.done() for future in futures]}")
         rclpy.spin_until_future_complete(node, futures[-1])
         node.note(f"done {[future.done() for future in futures]}")
-
-    return [Process((AdderOfHalfASecond,)), Process(main=main, start=0.3)]
-
-
-@case(5.0, from_first=True)
-def client_of_the_tutorial() -> list[Process]:
-    """`main` waits for the service, asks, and spins until the response is there."""
-
-    class Asker(AddingNode):
-        def __init__(self) -> None:
-            super().__init__("asker")
-            while not self.client.wait_for_service(timeout_sec=1.0):
-                pass
-
-    def main() -> None:
-        rclpy.init()
-        node = Asker()
-        node.note("asks")
-        future = node.client.call_async(sum_of(41, 1))
-        rclpy.spin_until_future_complete(node, future)
-        node.note_response(future.result())
-        node.destroy_node()
-        rclpy.shutdown()
 
     return [Process((AdderOfHalfASecond,)), Process(main=main, start=0.3)]
 
@@ -458,29 +371,6 @@ def spin_once_without_waiting() -> list[Process]:
             node.note("spun once")
 
     return [Process(main=main)]
-
-
-@case(3.9, tolerance=0.25)
-def publisher_in_a_loop_with_sleep() -> list[Process]:
-    """A `main` that publishes and sleeps, and never spins."""
-
-    def main() -> None:
-        rclpy.init()
-        node = LoggedNode("loop")
-        publisher = node.create_publisher(Int32, "number", 10)
-        time.sleep(1.0)  # on a busy machine, the two find each other late
-        for number in range(4):
-            time.sleep(0.5)
-            node.note(f"publishes {number}")
-            publisher.publish(Int32(data=number))
-        rclpy.shutdown()
-
-    class Listener(LoggedNode):
-        def __init__(self) -> None:
-            super().__init__("listener")
-            self.hear("number")
-
-    return [Process(main=main), Process((Listener,))]
 
 
 class RateNode(LoggedNode):

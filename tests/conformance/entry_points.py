@@ -107,11 +107,9 @@ class Outcome:
     race: str = ""
 
 
-def _both(
-    name: str, file: str, *arguments: str, at: float = 1.5, first_line: float = 0.0
-) -> list[Run]:
+def _both(name: str, file: str, at: float = 1.5) -> list[Run]:
     return [
-        Run(f"{name}-{number.name}", file, arguments, number, at, first_line=first_line)
+        Run(f"{name}-{number.name}", file, signal=number, at=at)
         for number in (signal.SIGINT, signal.SIGTERM)
     ]
 
@@ -128,20 +126,15 @@ RUNS = {
             beside=("tutorial/temperature_publisher.py",),
         ),
         Run("misspelled", "mains/misspelled.py"),
-        *_both("minimal_publisher", "mains/minimal_publisher.py", at=1.3),
-        Run("publisher_for_newer_rclpy", "mains/publisher_for_newer_rclpy.py"),
-        *_both("spin_once_loop", "mains/spin_once_loop.py", at=1.45),
-        *_both("sleep_loop", "mains/sleep_loop.py", at=1.25),
+        Run("spin_once_loop", "mains/spin_once_loop.py", signal=signal.SIGTERM, at=1.45),
+        Run("sleep_loop", "mains/sleep_loop.py", signal=signal.SIGTERM, at=1.25),
         Run("raising", "mains/raising.py"),
-        Run("exiting", "mains/exiting.py"),
-        *_both("exiting_with_threads", "mains/exiting_with_threads.py", at=1.4),
-        *_both("two_nodes", "mains/two_nodes.py", at=1.75),
-        *_both("trying_shutdown", "mains/trying_shutdown.py", at=1.4),
+        Run("exiting_with_threads", "mains/exiting_with_threads.py", signal=signal.SIGINT, at=1.4),
+        Run("two_nodes", "mains/two_nodes.py", signal=signal.SIGTERM, at=1.75),
         *_both("external_shutdown", "mains/external_shutdown.py", at=1.4),
-        *_both("no_handling", "mains/no_handling.py", at=1.4),
         *_both("sleeping_callback", "mains/sleeping_callback.py", at=1.5),
         Run("shutting_down", "mains/shutting_down.py"),
-        *_both("add_service", "mains/add_service.py", at=0.8),
+        Run("add_service", "mains/add_service.py", signal=signal.SIGINT, at=0.8),
         Run(
             "add_client_without_server-SIGINT", "mains/add_client.py", ("2", "3"), signal.SIGINT,
             at=1.6, first_line=1.0,
@@ -152,10 +145,8 @@ RUNS = {
             differs="Clients of a context that was shut down still work in a session.",
         ),
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
-        *_both("arguments", "mains/arguments.py", "one", "--ros-args", *_REMAPPED, "--", "two",
-               at=1.4),
-        Run("sleeping_handler", "mains/sleeping_handler.py", signal=signal.SIGTERM, at=1.5),
-        Run("own_exception", "mains/own_exception.py"),
+        Run("arguments", "mains/arguments.py", ("one", "--ros-args", *_REMAPPED, "--", "two"),
+            signal.SIGTERM, at=1.4),
         Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
     ]
 }  # fmt: skip

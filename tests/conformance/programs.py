@@ -194,9 +194,14 @@ class LoggedNode(Node):
 class Beat(LoggedNode):
     """Beats five times a second."""
 
-    def __init__(self) -> None:
-        super().__init__("beat")
+    def __init__(self, name: str = "beat") -> None:
+        super().__init__(name)
         self.every(0.2)
+
+
+def other_beat() -> Beat:
+    """Make a node that beats in another process."""
+    return Beat("other")
 
 
 class Burst(LoggedNode):

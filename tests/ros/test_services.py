@@ -66,14 +66,6 @@ def test_a_constructor_that_calls_is_explained(ros, says):
     assert server.asked == 0
 
 
-def test_spin_until_future_complete_runs_virtual_time(ros):
-    ros.add(Server)
-    node = ros.add(lambda: Node("asker"))
-    future = node.create_client(Trigger, "ask").call_async(Trigger.Request())
-    rclpy.spin_until_future_complete(node, future)
-    assert future.result().message == "1"
-
-
 def test_tasks_that_make_tasks_for_ever_are_stopped(ros, says, monkeypatch):
     monkeypatch.setattr("rosbeat.ros.virtual_time.MOST_TURNS", 1_000)
 
@@ -141,26 +133,3 @@ def test_rate_sleeps_in_virtual_time(ros):
         rate.sleep()
     assert ros.time == 2.0
     assert len(ticker.fired) == 20
-
-
-def test_rate_sleep_in_a_callback_is_explained(ros, capsys):
-    def do(node):
-        node.create_rate(2.0).sleep()
-
-    ros.add(partial(Doer, do))
-    ros.run(2)
-    (fault,) = ros.observation().faults
-    assert "create a timer" in fault.text
-    capsys.readouterr()
-
-
-def test_a_coroutine_that_nobody_awaits_does_not_run(ros):
-    log = []
-
-    async def forgotten(_):
-        log.append("ran")
-
-    ros.add(partial(Doer, forgotten))
-    with pytest.warns(RuntimeWarning, match="never awaited"):
-        ros.run(1)
-    assert log == []

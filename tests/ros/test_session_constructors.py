@@ -7,7 +7,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Int32, String
 
-from nodes import Listener, Speaker, Talker, Words
+from nodes import Listener, Speaker, Words
 from rosbeat import Session
 from rosbeat.errors import NodeClassError, NodeConstructionError
 
@@ -45,17 +45,6 @@ def test_nothing_is_left_of_a_node_whose_constructor_raises(ros, says, capfd):
     ros.run(2)
     assert [line.msg for line in heard] == ["here is half_way"] * 2
     assert capfd.readouterr().err == ""
-
-
-def test_interrupting_a_constructor_leaves_nothing(ros):
-    class Endless(Node):
-        def __init__(self):
-            super().__init__("endless")
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        ros.add(Endless)
-    assert names(ros) == []
 
 
 class Broken(Node):
@@ -113,7 +102,7 @@ def test_what_a_constructor_does_wrong_is_explained(ros, says, capfd, case):
     assert capfd.readouterr().err == ""
 
 
-@pytest.mark.parametrize("name", ["1temp", "temperature-sensor", "", "a/b", 5, None])
+@pytest.mark.parametrize("name", ["1temp", "", 5])
 def test_names_that_ros_refuses(ros, says, name):
     with pytest.raises(NodeConstructionError) as caught:
         ros.add(lambda: Node(name))
@@ -130,14 +119,6 @@ def test_what_is_not_a_node_is_refused(ros, says, thing):
     with pytest.raises((NodeClassError, NodeConstructionError)) as caught:
         ros.add(thing)
     says(caught.value)
-
-
-def test_a_node_of_another_session_is_refused(ros, says):
-    with Session() as other:
-        talker = other.add(Talker)
-        with pytest.raises(NodeClassError) as caught:
-            ros.add(talker)
-        says(caught.value, "does not belong to this session")
 
 
 # What the middleware prints by itself.

@@ -7,15 +7,15 @@ from rclpy.node import Node
 
 from rosbeat import Session
 from rosbeat.errors import BagError
-from rosbeat.exercises.scenarios import station
 from rosbeat.records import QoS
-from rosbeat.ros.playback import PlayedTopic, player
 from rosbeat.ros.test_nodes import (
     GREENHOUSE,
+    PlayedTopic,
     drift,
     feeder,
     listener,
     observe_greenhouse,
+    player,
 )
 
 pytestmark = pytest.mark.ros
@@ -23,17 +23,6 @@ STRING = "std_msgs/msg/String"
 KEPT = QoS(depth=2, durability="TRANSIENT_LOCAL")
 
 # Sensors.
-
-
-def test_who_keeps_an_answer_company_offers_nothing_for_parameters(ros):
-    ros.add(station("gauge", "level", [1.0]))
-    ros.add(feeder("feeder", "word", "std_msgs/msg/String", ["a"]))
-    ros.add(listener("listener", "word", "std_msgs/msg/String"))
-    ros.add(drift([(1.0, 1.0)]))
-    assert len(ros.graph().nodes) == 4
-    assert not [
-        end for end in ros.graph().endpoints if "parameter" in end.name and end.kind == "server"
-    ]
 
 
 # Nodes that log what they receive.
@@ -82,31 +71,6 @@ def test_numbers_tend_upwards_then_downwards_then_nowhere():
     assert mean(values[100:200]) == pytest.approx(2.25, abs=0.06)
     assert mean(values[200:]) == pytest.approx(2.5, abs=0.09)
     assert all(2.0 <= value <= 3.0 for value in values)
-
-
-@pytest.mark.parametrize(
-    "draw",
-    [lambda: random.random(), lambda: random.choice(range(100)) / 100, lambda: random.gauss(1, 2)],
-)
-def test_other_functions_drift_too(draw):
-    class Gambler(Node):
-        def __init__(self):
-            super().__init__("gambler")
-            self.drawn = []
-            self.create_timer(1.0, lambda: self.drawn.append(draw()))
-
-    with Session(seed=5) as ros:
-        ros.add(drift([(200, 1 / 3), (0, 3.0)]))
-        gambler = ros.add(Gambler)
-        ros.run(400)
-    assert mean(gambler.drawn[:200]) != pytest.approx(mean(gambler.drawn[200:]), abs=0.2)
-
-
-def test_nothing_is_left_of_it():
-    plain = random.Random(9)
-    drawn([(0, 50.0)], 3)
-    random.seed(9)
-    assert [random.uniform(0, 1) for _ in range(5)] == [plain.uniform(0, 1) for _ in range(5)]
 
 
 # The greenhouse: what there is to find in it, and that it is the same each time.

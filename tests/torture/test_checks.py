@@ -10,7 +10,7 @@ import pytest
 import nasty
 from torture.kernel import FULL, Kernel
 
-INTERRUPTS = 20 if FULL else 2
+INTERRUPTS = 20 if FULL else 1
 #: What is promised for one check, where the machine is not busy; else it has to answer at all.
 WITHIN = 6.0 if FULL else 30.0
 AT_ONCE = 0.8 if FULL else 5.0
@@ -63,8 +63,6 @@ CELLS = {
         "",
     ),
 }
-#: While it runs, IPython's own threads use the names that it changes, and one of them may end.
-OTHERS_SUFFER = {"changes everything"}
 SOME = ("loop in a callback", "loop that catches everything", "prints",
         "replaced handlers, then loop")  # fmt: skip
 
@@ -88,29 +86,6 @@ def test_a_check_of_what_never_ends_answers_and_the_kernel_lives(names):
             assert reply.seconds < WITHIN, (name, reply)
             probe = kernel.run(PROBE)
             assert (probe.error, probe.text) == ("", right), (name, probe)
-        assert kernel.exit() == 0, kernel.log()
-
-
-def own(text):
-    """What a cell printed; a thread of another one may print between any two of its words."""
-    return " ".join(text.replace("from a thread", " ").split())
-
-
-def test_a_check_of_what_raises_or_does_no_harm_answers_and_the_kernel_lives():
-    with Kernel() as kernel:
-        assert kernel.run(PRELUDE).error == ""
-        right = kernel.run(PROBE).text
-        for group in ("RAISING", "HARMLESS"):
-            # All of them end in a check of `tests/ros/test_scenario.py`.
-            names = sorted(set(getattr(nasty, group)) - OTHERS_SUFFER)[:: 1 if FULL else 4]
-            for name in names:
-                answer = f"nasty.{group}[{name!r}]" + ("[0]" if group == "RAISING" else "")
-                reply = kernel.run(f"told({answer})")
-                assert reply.error == "", (name, reply)
-                verdict = "failed" if group == "RAISING" else "passed"
-                assert own(reply.text).startswith(verdict), (name, reply)
-                probe = kernel.run(PROBE)
-                assert (probe.error, own(probe.text)) == ("", own(right)), name
         assert kernel.exit() == 0, kernel.log()
 
 

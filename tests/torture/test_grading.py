@@ -200,61 +200,14 @@ def test_killed_while_results_are_written(graded, file):
     graded.require_same(out)
 
 
-# A damaged ledger.
+# A damaged ledger; `test_ledger.py` tries each byte, without grading anything.
 
 
-def cut_in_a_line(data, random):
-    return data[: random.randrange(len(data))]
-
-
-def cut_at_a_line(data, random):
-    return data[: data.index(b"\n", random.randrange(len(data) // 2)) + 1]
-
-
-def without_the_last_newline(data, random):
-    return data[:-1]
-
-
-def without_its_beginning(data, random):
-    return data[random.randrange(1, len(data)) :]
-
-
-def flipped(data, random):
-    found = bytearray(data)
+def test_a_damaged_ledger_changes_no_grade(graded):
+    random, data = Random("flipped"), bytearray((graded.plain / FILE).read_bytes())
     for _ in range(20):
-        found[random.randrange(len(found))] ^= 1 << random.randrange(8)
-    return bytes(found)
-
-
-def other_points(data, random):
-    """Somebody, or a bad disk, has made another number of it, and it is JSON still."""
-    assert b'"points":' in data
-    return data.replace(b'"points":', b'"points":1', 1)
-
-
-def zeros(data, random):
-    """What some file systems leave of a block after a power cut."""
-    place = random.randrange(len(data))
-    return data[:place] + bytes(min(4096, len(data) - place)) + data[place + 4096 :]
-
-
-def empty(data, random):
-    return b""
-
-
-DAMAGES = [cut_in_a_line, cut_at_a_line, without_the_last_newline, without_its_beginning,
-           flipped, other_points, zeros, empty]  # fmt: skip
-#: The others are for `--thorough`; `test_ledger.py` tries each byte, without grading anything.
-_QUICK = (flipped,)
-
-
-@pytest.mark.parametrize(
-    "damage",
-    [one if one in _QUICK else pytest.param(one, marks=pytest.mark.thorough) for one in DAMAGES],
-)
-def test_a_damaged_ledger_changes_no_grade(graded, damage):
-    data = damage((graded.plain / FILE).read_bytes(), Random(damage.__name__))
-    graded.require_same(graded.new(damage.__name__, data))
+        data[random.randrange(len(data))] ^= 1 << random.randrange(8)
+    graded.require_same(graded.new("damaged", bytes(data)))
 
 
 def test_a_folder_in_place_of_the_ledger_is_refused_and_nothing_is_written(graded):
@@ -280,13 +233,3 @@ def test_two_runs_in_one_folder_at_once_agree(graded):
         _, said = run.communicate(timeout=DEADLINE)
         assert run.returncode == 0, said.decode()
     graded.require_same(out)
-
-
-@pytest.mark.thorough
-def test_two_runs_that_begin_in_an_empty_folder_agree_about_its_seed(graded):
-    out = graded.folder / "begun-twice"
-    runs = [graded.start(out) for _ in range(2)]
-    for run in runs:
-        _, said = run.communicate(timeout=DEADLINE)
-        assert run.returncode == 0, said.decode()
-    assert len(set(judged(out))) == graded.judged

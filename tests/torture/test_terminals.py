@@ -13,7 +13,7 @@ import pytest
 from rosbeat.workspace.terminals.reaper import marked
 from torture.kernel import FULL, Kernel
 
-TIMES = 100 if FULL else 5
+TIMES = 100 if FULL else 3
 PRELUDE = """
 import os
 from rosbeat import workspace

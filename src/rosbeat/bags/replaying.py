@@ -11,7 +11,7 @@ from rosbeat.bags.inputs import Run, observation_of, topic_types
 from rosbeat.bags.serialization import installed_types, serialized
 from rosbeat.errors import called_as
 from rosbeat.records import Observation, QoS, Sample
-from rosbeat.ros.playback import NodeFactory, PlayedStep, PlayedTopic, player
+from rosbeat.ros.test_nodes import NodeFactory, PlayedStep, PlayedTopic, player
 
 
 @called_as("bags.replay(bag)")

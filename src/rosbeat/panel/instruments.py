@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 from rosbeat.errors import RosbeatError, SessionError
 from rosbeat.panel.sampling import NUMERIC_TYPES, News
 from rosbeat.records import GraphSnapshot
-from rosbeat.ros.errors import no_such_node, node_has_ended, session_has_ended, session_is_not_live
-from rosbeat.ros.injection import Injector, TopicFault, restart_node
+from rosbeat.ros.errors import no_such_node, session_has_ended, session_is_not_live
 from rosbeat.ros.launch import Maker
+from rosbeat.ros.test_nodes import Injector, TopicFault
 from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
-    from rosbeat.ros.entities import NodeState
+    from rosbeat.ros.processes import NodeState
 
 #: What a fault does to the messages of a topic.
 FAULTS = ("none", "dropout", "nan", "offset")
@@ -99,17 +99,12 @@ class SessionInstruments:
     def pause(self, node: str) -> None:
         """Run none of a node's callbacks."""
         with self._acting():
-            state = find(self._world, node)
-            self._world.pause_node(state)
-            state.paused = True
+            self._world.pause(node)
 
     def resume(self, node: str) -> None:
         """Run a paused node's callbacks again."""
         with self._acting():
-            state = find(self._world, node)
-            if state.ended:
-                raise node_has_ended(state.name)
-            self._world.spin_node(state)
+            self._world.resume(node)
 
     def stop(self, node: str) -> None:
         """Destroy a node, and remember how it was made."""
@@ -125,7 +120,7 @@ class SessionInstruments:
             maker = self._maker(state) if state else self._stopped.get(node)
             if maker is None:
                 raise no_such_node(node, list(self._stopped))
-            restart_node(self._world, node, maker)
+            self._world.restart(node, maker)
             self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:

@@ -18,7 +18,7 @@ import rclpy.utilities
 from rclpy.context import Context
 
 from rosbeat.domains import SESSION_DOMAINS
-from rosbeat.ros.console import note
+from rosbeat.ros.errors import note
 from rosbeat.ros.recording import Watcher, in_kernel
 
 if TYPE_CHECKING:

@@ -34,8 +34,8 @@ from rosbeat.records import (
     is_hidden,
 )
 from rosbeat.ros.context import show_briefly
-from rosbeat.ros.entities import NodeState, full_name
 from rosbeat.ros.errors import nearest
+from rosbeat.ros.processes import NodeState, full_name
 from rosbeat.ros.qos_events import fit, limit_ns
 from rosbeat.ros.recording import Channel, Memory, Message, Recorder, Unwatched, type_name
 

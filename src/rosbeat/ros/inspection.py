@@ -32,8 +32,8 @@ from rosbeat.diagnosis.situation import (
 from rosbeat.domains import PRIVATE_IDS, SESSION_DOMAINS
 from rosbeat.records import NANOSECONDS, GraphSnapshot, is_hidden
 from rosbeat.ros.context import SESSION_ARGUMENTS
-from rosbeat.ros.entities import NodeState
 from rosbeat.ros.graph import GraphObserver, HiddenNode, domains_in_use, owner, poll
+from rosbeat.ros.processes import NodeState
 from rosbeat.ros.recording import message_class
 from rosbeat.ros.world import World
 

@@ -1,4 +1,4 @@
-"""Run a learner's code with a deadline, and leave the process as it was."""
+"""Run a learner's code with a deadline, leave the process as it was, and seed random numbers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from io import TextIOBase
 from pathlib import Path
 from types import FrameType, ModuleType, TracebackType
 from typing import Any, NoReturn
-from weakref import WeakSet
 
 import rclpy
 from rclpy.node import Node
@@ -314,7 +313,6 @@ def unharmed() -> Iterator[Count]:
     """
     count = Count()
     with ExitStack() as stack:
-        stack.callback(_silence_threads_but, set(threading.enumerate()))
         for put_back in [*_settings(), *_signals(), *(_names(*one) for one in _NAMES)]:
             stack.callback(_quietly, put_back)
         stack.enter_context(warnings.catch_warnings())
@@ -330,27 +328,6 @@ def unharmed() -> Iterator[Count]:
             stack.callback(_quietly, lambda: delattr(shell, "ask_exit"))
             shell.ask_exit = _refuse_to_quit
         yield count
-
-
-class _Silence:
-    """Prints the exceptions of all threads but those that a block has left behind."""
-
-    def __init__(self) -> None:
-        self.left_behind: WeakSet[threading.Thread] = WeakSet()
-        self._print = threading.excepthook
-
-    def __call__(self, raised: threading.ExceptHookArgs) -> None:
-        if raised.thread not in self.left_behind:
-            self._print(raised)
-
-
-def _silence_threads_but(before: set[threading.Thread]) -> None:
-    """Keep exceptions of the threads that are left behind from the page: its nodes are gone."""
-    left_behind = set(threading.enumerate()) - before
-    if left_behind:
-        if not isinstance(threading.excepthook, _Silence):
-            threading.excepthook = _Silence()
-        threading.excepthook.left_behind.update(left_behind)
 
 
 #: Where names are put back; which ones, or all.
@@ -426,3 +403,96 @@ def _refuse_to_quit() -> NoReturn:
 def _ipython() -> Any:  # noqa: ANN401 - its shell, whose `quit()` ends the kernel after the cell
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None
+
+
+# Random numbers.
+#
+# A node draws from Python's global generator (`random.uniform`) or NumPy's. Each session keeps its
+# own generator states and installs them only while its nodes run, so that the same seed gives the
+# same numbers whatever other code draws in between.
+
+
+#: The generator behind the functions of `random`: `random.uniform` is a method of it.
+_SHARED: random.Random = random.uniform.__self__  # type: ignore[attr-defined]
+#: The same function again, and not an equal one: nothing is different after a session.
+_PLAIN = random.random
+
+
+def _numpy_random() -> Any:  # noqa: ANN401 - a module
+    # Only a node that imported NumPy can draw from it; importing it here would cost 0.1 s.
+    return getattr(sys.modules.get("numpy"), "random", None)
+
+
+def tilt(exponent: float) -> None:
+    """Tilt the numbers that the functions of `random` draw, until the session's run ends.
+
+    They are what would have been drawn, between 0 and 1, raised to a power; so they keep their
+    range, and only their mean moves, to 1 / (1 + exponent).
+
+    Args:
+        exponent: 1 for no tilt, less for higher numbers, more for lower ones; above 0.
+    """
+    _straighten()
+    if exponent == 1.0:
+        return
+    plain = _SHARED.random
+
+    def tilted() -> float:
+        return float(plain() ** exponent)
+
+    # `uniform` and `gauss` ask the first, `choice` and `randint` the second.
+    vars(_SHARED).update(random=tilted, _randbelow=lambda n: int(n * tilted()))
+    random.random = tilted
+
+
+def _straighten() -> None:
+    for name in ("random", "_randbelow"):
+        vars(_SHARED).pop(name, None)
+    random.random = _PLAIN
+
+
+class SeededRandom:
+    """Hold the random state of one session; NumPy takes its seed modulo 2**32."""
+
+    def __init__(self, seed: int) -> None:
+        self._seed = seed
+        self._state = random.Random(seed).getstate()
+        self._numpy_state: Any = None
+        self._is_lent = False
+
+    @contextmanager
+    def lent(self) -> Iterator[None]:
+        """Put this session's states in place of the process's, and back at the end.
+
+        Within another `lent` of the same session it does nothing: a constructor may call a service.
+        """
+        if self._is_lent:
+            yield
+            return
+        self._is_lent = True
+        try:
+            with self._exchanged():
+                yield
+        finally:
+            self._is_lent = False
+
+    @contextmanager
+    def _exchanged(self) -> Iterator[None]:
+        outer, numpy = _SHARED.getstate(), _numpy_random()
+        outer_numpy = numpy.get_state() if numpy else None
+        _SHARED.setstate(self._state)
+        if numpy and self._numpy_state is None:
+            numpy.seed(self._seed % 2**32)
+        elif numpy:
+            numpy.set_state(self._numpy_state)
+        try:
+            yield
+        finally:
+            _straighten()
+            self._state = _SHARED.getstate()
+            _SHARED.setstate(outer)
+            # NumPy may have been imported meanwhile; then there is no outer state to put back.
+            numpy = _numpy_random()
+            self._numpy_state = numpy.get_state() if numpy else None
+            if outer_numpy is not None:
+                numpy.set_state(outer_numpy)

@@ -22,7 +22,7 @@ from rclpy.executors import (
 from rclpy.node import Node
 from rclpy.task import Future, Task
 
-from rosbeat.ros.entities import Entry, take_message
+from rosbeat.ros.processes import Entry, take_message
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity

@@ -22,7 +22,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import HistoryPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
 
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS
-from rosbeat.ros.entities import Entry, NodeState, Work, callback_name, message_work
+from rosbeat.ros.processes import Entry, NodeState, Work, callback_name, message_work
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity, PublisherTap

@@ -39,13 +39,13 @@ from rosbeat.records import (
     QoS,
     Reply,
 )
-from rosbeat.ros.entities import NodeState
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.faults import fault_of, line_of
 from rosbeat.ros.isolation import Deadline, DeadlinePassed, run_in_generator, unharmed
 from rosbeat.ros.launch import Launch as Launch
 from rosbeat.ros.launch import Maker as Maker
 from rosbeat.ros.launch import checked
+from rosbeat.ros.processes import NodeState
 from rosbeat.ros.recording import message_class as message_class
 from rosbeat.ros.recording import plain
 from rosbeat.ros.session import Session

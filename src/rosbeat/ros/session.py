@@ -20,7 +20,6 @@ from rosbeat.ros.errors import (
     check_whole,
     duration_ns,
     foreign_node,
-    node_has_ended,
     node_name,
     session_has_ended,
     session_is_live,
@@ -184,8 +183,8 @@ class Session:
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
 
-        It is a process of its own, as one that `ros2 run` starts: with a default context, command
-        line and signal handlers that are its own. It goes on whenever the session runs.
+        It is a process of its own, as one that `ros2 run` starts, with its own default context and
+        command line. It goes on whenever the session runs.
 
         Args:
             program: The file, or a function such as `main`.
@@ -228,9 +227,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        state = find(self._world, node)
-        self._world.pause_node(state)
-        state.paused = True
+        self._world.pause(node)
 
     @called_as('ros.resume("sensor")')
     def resume(self, node: Node | str) -> None:
@@ -242,10 +239,7 @@ class Session:
             SessionError: If the session has no such node, or it ended with an exception.
         """
         self._check_open()
-        state = find(self._world, node)
-        if state.ended:
-            raise node_has_ended(state.name)
-        self._world.spin_node(state)
+        self._world.resume(node)
 
     # Time.
 

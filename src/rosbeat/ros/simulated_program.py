@@ -1,7 +1,7 @@
 """Run a file with `main()` unchanged as a simulated process, in virtual time.
 
 `rclpy.init`, `spin`, `destroy_node` and `shutdown` behave as in an operating-system process: the
-program has its own default context, arguments and signal handlers, and a freshly imported module.
+program has its own default context and arguments, and a freshly imported module.
 Ctrl+C and SIGTERM arrive at a chosen time, with the effects of rclpy's and Python's signal
 handlers: the context is shut down, and `KeyboardInterrupt` is raised where the program is (rclpy
 7.1, `signal_handler.cpp`; `tests/conformance` compares the two).
@@ -18,6 +18,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
@@ -31,6 +32,7 @@ from rclpy.node import Node
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
+from rosbeat.ros.errors import note
 from rosbeat.ros.faults import error_text, fault_of
 from rosbeat.ros.processes import Call, Process
 
@@ -72,22 +74,14 @@ class SimulatedProgram:
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
         self._failure: SessionError | None = None
-        self._handlers: dict[int, Any] = {
-            signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
-        }  # fmt: skip
-        self._caught: set[int] = set()  # the signals for which rclpy's handlers are installed
+        self._has_handlers = False  # those of rclpy
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
-        # Its own modules, and those of the kernel that are not to be seen while it runs.
-        self._modules: dict[str, ModuleType] = {}
-        self._hidden: dict[str, ModuleType] = {}
-        self._known = 0
         self._outside: tuple[Any, ...] = ()
         if isinstance(self._target, Path):
             self._root = _root_of(self._target)
             parts = self._target.relative_to(self._root).with_suffix("").parts
             self._module, self._package = ".".join(parts), parts[0] if len(parts) > 1 else ""
-            self._names = {name for name, one in sys.modules.items() if self._is_own(name, one)}
 
     def __repr__(self) -> str:
         state = "running" if self.returncode is None else f"exit code {self.returncode}"
@@ -149,7 +143,7 @@ class SimulatedProgram:
         virtual.run_until(virtual.now)
 
     def enter(self) -> None:
-        """Put the program's own `sys.argv`, context, signal handlers and modules in place."""
+        """Put the program's own `sys.argv`, context and folder in place."""
         utilities = rclpy.utilities
         self._outside = (
             utilities.g_default_context, utilities.Context, sys.argv, signal.signal, list(sys.path),
@@ -157,12 +151,9 @@ class SimulatedProgram:
         utilities.Context = self._new_context
         utilities.g_default_context = self._context
         sys.argv = self.argv
-        signal.signal = self._set_handler  # type: ignore[assignment]  # `leave` puts it back
+        signal.signal = _keep_handler  # type: ignore[assignment]  # `leave` puts it back
         if isinstance(self._target, Path):
             sys.path.insert(0, str(self._root))
-            self._hidden = {one: sys.modules.pop(one) for one in self._names if one in sys.modules}
-            sys.modules.update(self._modules)
-            self._known = len(sys.modules)
 
     def leave(self) -> None:
         """Put everything back; the program's own state is kept for the next time."""
@@ -172,14 +163,6 @@ class SimulatedProgram:
             self._outside
         )
         sys.path[:] = path
-        if isinstance(self._target, Path):
-            if len(sys.modules) > self._known:  # what it has imported since is at the end
-                new = list(sys.modules.items())[self._known :]
-                self._modules.update(one for one in new if self._is_own(*one))
-                self._names.update(self._modules)
-            for name in self._modules:
-                sys.modules.pop(name, None)
-            sys.modules.update(self._hidden)
 
     def shut_down(self) -> None:
         """Let a `spin` of the program return: its context was shut down."""
@@ -189,7 +172,7 @@ class SimulatedProgram:
 
     def install_handlers(self) -> None:
         """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
-        self._caught = {signal.SIGINT, signal.SIGTERM}
+        self._has_handlers = True
 
     def fail(self, error: SessionError) -> None:
         """End the program with an error, from a thread of its own, as soon as `main` waits."""
@@ -205,13 +188,6 @@ class SimulatedProgram:
 
     def _new_context(self) -> ProgramContext:
         return ProgramContext(self._world, self)
-
-    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401 - as `signal.signal`
-        """Do what `signal.signal` does, for this program only."""
-        before = self._handlers.get(number, signal.SIG_DFL)
-        self._handlers[number] = handler
-        self._caught.discard(number)  # it was the process's only one
-        return before
 
     def _run(self) -> None:
         self._main = self._world.virtual.current
@@ -237,7 +213,10 @@ class SimulatedProgram:
         self._finish(self._failure or error)
 
     def _load(self) -> Callable[[], Any]:
-        """Return `main` of the file, imported afresh, as the script of an entry point does."""
+        """Return `main` of the file, imported afresh, as the script of an entry point does.
+
+        So are the modules of its own that the file imports; afterwards the kernel has its own back.
+        """
         if not isinstance(self._target, Path):
             found: Callable[[], Any] = self._target
             return found
@@ -245,10 +224,20 @@ class SimulatedProgram:
         spec = spec_from_file_location(self._module, self._target)
         assert spec is not None
         assert spec.loader is not None
+        hidden = self._take_own_modules()
         module = sys.modules[self._module] = module_from_spec(spec)
-        spec.loader.exec_module(module)
+        try:
+            spec.loader.exec_module(module)
+        finally:
+            self._take_own_modules()
+            sys.modules.update(hidden)
         main: Callable[[], Any] = module.main
         return main
+
+    def _take_own_modules(self) -> dict[str, ModuleType]:
+        """Take the program's modules out of `sys.modules`, and return them."""
+        own = [name for name, one in list(sys.modules.items()) if self._is_own(name, one)]
+        return {name: sys.modules.pop(name) for name in own}
 
     def _is_own(self, name: str, module: Any) -> bool:  # noqa: ANN401 - anything may stand there
         """Return whether a module is the program's: of its package, or from its folder.
@@ -267,32 +256,16 @@ class SimulatedProgram:
 
     def _deliver(self, number: signal.Signals) -> None:
         """Do what the signal handlers of rclpy and of Python do."""
-        handler = self._handlers[number]
-        caught = number in self._caught and self._context is not None and self._context.ok()
+        caught = self._has_handlers and self._context is not None and self._context.ok()
         if caught:
             Context.try_shutdown(self._context)  # without waking anybody yet
-        if callable(handler):
-            virtual = self._world.virtual
-            virtual.start_main(lambda: self._handle(handler, number), self._process)
-        elif handler is signal.SIG_DFL and caught:
+        if number == signal.SIGINT:
+            self.interrupt = KeyboardInterrupt()
+            self._raise(self.interrupt)
+        elif caught:
             self._external_shutdown()
-        elif handler is signal.SIG_DFL:
+        else:
             self._end(-number)
-
-    def _handle(self, handler: Callable[..., Any], number: int) -> None:
-        """Call the program's handler, and raise what it raises where the program is."""
-        self.enter()
-        try:
-            handler(int(number), None)  # a plain number, as the system hands it over
-        except GreenletExit:
-            raise  # the program has ended while its handler slept
-        except BaseException as error:
-            raised = error.with_traceback(None)
-            if isinstance(error, KeyboardInterrupt):
-                self.interrupt = error
-            self._raise(raised)
-        finally:
-            self.leave()
 
     def _raise(self, error: BaseException) -> None:
         """Raise an exception where the main thread of the program is."""
@@ -319,8 +292,8 @@ class SimulatedProgram:
     def _finish(self, error: BaseException | None) -> None:
         code = 0
         if isinstance(error, SystemExit):
-            if isinstance(error.code, int):  # a C `long`, or -1; the system keeps its last byte
-                code = (error.code if -(2**63) <= error.code < 2**63 else -1) & 0xFF
+            if isinstance(error.code, int):
+                code = error.code & 0xFF  # as the system does
             elif error.code is not None:
                 code, self.stderr = 1, f"{error.code}\n"
         elif error is not None:
@@ -344,6 +317,12 @@ class SimulatedProgram:
             Context.try_shutdown(self._context)
 
 
+def _keep_handler(number: int, handler: object) -> object:
+    """Answer `signal.signal` of a program: its signals are simulated, and the kernel's its own."""
+    note("signal.signal() has no effect here, because the session simulates a program's signals.")
+    return signal.SIG_DFL
+
+
 def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
     """Return the file or the function; refuse anything else."""
     if callable(target) and not isinstance(target, type):
@@ -358,21 +337,14 @@ def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
 
 
 def _checked_file(name: str) -> Path:
-    meaning = "`ros.spawn` runs a program: a Python file with a function `main`."
-    try:
-        file = Path(name).expanduser().resolve()
-        exists = file.exists()
+    with suppress(OSError, ValueError):  # too long, or with a NUL character
+        file = Path(name).resolve()
         if file.is_file() and file.suffix == ".py":
             return file
-    except (OSError, ValueError, RuntimeError):  # too long, a NUL character, a user without a home
-        file, exists = Path(), False
-    shown = reprlib.repr(name)
-    if exists:
-        raise SessionError(
-            f"{shown} is not a Python file.", meaning, "Name the file itself, such as `my_node.py`."
-        )
     raise SessionError(
-        f"There is no file {shown}.", meaning, f"Check the name, and the folder `{file.parent}`."
+        f"There is no Python file {reprlib.repr(name)}.",
+        "`ros.spawn` runs a program: a Python file with a function `main`.",
+        "Check the name; it ends in `.py`, and a relative one begins at the notebook's folder.",
     )
 
 

@@ -24,9 +24,9 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from rosbeat.errors import SessionError
-from rosbeat.ros.console import note
 from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.entities import NodeState
+from rosbeat.ros.errors import note
+from rosbeat.ros.processes import NodeState
 from rosbeat.ros.recording import watcher_of
 
 if TYPE_CHECKING:
@@ -51,8 +51,6 @@ def install() -> None:
     Executor.spin_until_future_complete = _executor_until(Executor.spin_until_future_complete)
     for kind in (SingleThreadedExecutor, MultiThreadedExecutor):
         kind.spin_once = _executor_once(kind.spin_once)
-        once_until = _executor_until(kind.spin_once_until_future_complete, 1)
-        kind.spin_once_until_future_complete = once_until
 
 
 # `rclpy.spin(node)` and its kin.
@@ -173,9 +171,7 @@ def _executor_once(original: Callable[..., None]) -> Callable[..., None]:
     return spin_once
 
 
-def _executor_until(original: Callable[..., None], most: int | None = None) -> Callable[..., None]:
-    """Wrap a method that spins until a future is done, or until `most` callbacks have run."""
-
+def _executor_until(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(executor: Executor, future: Future, timeout_sec: float | None = None) -> None:
         world = _world_of(executor)
@@ -183,7 +179,7 @@ def _executor_until(original: Callable[..., None], most: int | None = None) -> C
             original(executor, future, timeout_sec)
             return
         nodes = executor.get_nodes()
-        _play_until(world, _states(world, executor), future, timeout_sec, most)
+        _play_until(world, _states(world, executor), future, timeout_sec)
         _give_back(nodes, executor)
 
     return spin
@@ -236,15 +232,11 @@ def _play(world: _World, executor: Executor | None, states: list[NodeState]) -> 
 
 
 def _play_until(
-    world: _World,
-    states: list[NodeState],
-    future: Future,
-    timeout_sec: float | None,
-    most: int | None = None,
+    world: _World, states: list[NodeState], future: Future, timeout_sec: float | None
 ) -> None:
     until = world.virtual.after(timeout_sec)
     client = next((one for state in states for one in _clients(state) if _asked(one, future)), None)
-    world.virtual.spin(states, until, lambda: future.done() or future.cancelled(), most, client)
+    world.virtual.spin(states, until, lambda: future.done() or future.cancelled(), needs=client)
 
 
 def _clients(state: NodeState) -> list[Any]:

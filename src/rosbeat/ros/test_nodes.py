@@ -1,20 +1,28 @@
-"""Create the nodes that scenarios run beside an answer."""
+"""Create nodes of the course's own: beside an answer, for a bag that is played, for the panel."""
 
 from __future__ import annotations
 
+import time
+from collections import deque
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from itertools import islice
-from typing import Any
+from math import nan
+from random import Random
+from typing import Any, NamedTuple
 
+from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.timer import Timer
 from std_msgs.msg import Bool, Float32, Int32, String
 
+from rosbeat.errors import BagError
 from rosbeat.records import Observation, QoS
-from rosbeat.ros.randomness import tilt
-from rosbeat.ros.recording import message_class
+from rosbeat.ros.isolation import tilt
+from rosbeat.ros.recording import Message, message_class
 from rosbeat.ros.session import Session
 
 #: Options of a test node: the six parameter services take two thirds of the time to make a node.
@@ -293,3 +301,186 @@ def observe_greenhouse() -> tuple[Observation, dict[str, Any]]:
             if name not in ("use_sim_time", "start_type_description_service")
         }
         return session.observation(), parameters
+
+
+# A node that plays a recording.
+
+
+#: Makes a node; `Session.add` takes it.
+NodeFactory = Callable[[], Node]
+
+
+class PlayedTopic(NamedTuple):
+    """Describe a topic to publish on: its full name, its type and the QoS to offer."""
+
+    topic: str
+    type_name: str
+    qos: QoS
+
+
+class PlayedStep(NamedTuple):
+    """Describe what to publish in one callback.
+
+    `time_ns` counts from the creation of the node. `messages` holds pairs of a topic's index and a
+    serialized message.
+    """
+
+    time_ns: int
+    messages: tuple[tuple[int, bytes], ...]
+
+
+def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]) -> NodeFactory:
+    """Return a class of node that publishes prepared messages at prepared times.
+
+    All that one of the `steps`, which are in order of time, causes is over before the next one
+    begins, also at the same instant.
+
+    Raises:
+        BagError: If no installed package has a topic's type.
+    """
+    classes = [_class_of(topic) for topic in topics]
+
+    class Player(Node):
+        """Publishes what was recorded."""
+
+        def __init__(self) -> None:
+            super().__init__(name)
+            self._topic_publishers = [
+                self.create_publisher(kind, one.topic, profile(one.qos))
+                for kind, one in zip(classes, topics, strict=True)
+            ]
+            self._begun, self._left = self.get_clock().now(), deque(steps)
+            if steps:
+                self._step_timer = self.create_timer(steps[0].time_ns / 1e9, self._play)
+                self._schedule()
+
+        def _play(self) -> None:
+            for topic, message in self._left.popleft().messages:
+                self._topic_publishers[topic].publish(message)
+            self._schedule()
+
+        def _schedule(self) -> None:
+            if not self._left:
+                self._step_timer.cancel()
+                return
+            elapsed = (self.get_clock().now() - self._begun).nanoseconds
+            self._step_timer.timer_period_ns = max(0, self._left[0].time_ns - elapsed)
+            self._step_timer.reset()
+
+    return Player
+
+
+def _class_of(topic: PlayedTopic) -> type:
+    try:
+        return message_class(topic.type_name)
+    except (ImportError, AttributeError, ValueError) as error:
+        raise BagError(
+            f"Messages of the type {topic.type_name} cannot be published here.",
+            f"{topic.topic} has this type, but no package that defines the type is installed.",
+            "Build and source the package that defines the type, or leave the topic out with "
+            "`topics=[...]`.",
+        ) from error
+
+
+# What the instrument panel adds to a live session: a node, and faults on topics.
+
+
+#: The name of the node through which the panel publishes.
+INJECTOR = "instrument_panel"
+
+
+class Injector(Node):
+    """Publish numbers on topics, once or every second, and run a slow callback on request.
+
+    The injector appears in the graph like any other node, because subscriptions do receive its
+    messages.
+    """
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(INJECTOR, context=context, start_parameter_services=False)
+        self._publishers_by_topic: dict[str, Any] = {}
+        self._repeated: dict[str, float] = {}
+        self._repeat_timer: Timer | None = None
+        self._load_timer: Timer | None = None
+        self._load_s = 0.0
+
+    def send(self, topic: str, type_name: str, value: float) -> None:
+        """Publish one number on a topic of a type with a field `data` for a number."""
+        if topic not in self._publishers_by_topic:
+            kind = message_class(type_name)
+            self._publishers_by_topic[topic] = self.create_publisher(kind, topic, 10)
+        self._publish(topic, value)
+        if topic in self._repeated:
+            self._repeated[topic] = value
+
+    def repeat(self, topic: str, value: float | None) -> None:
+        """Publish a number every second on a topic of which `send` knows the type; None ends it."""
+        if value is None:
+            self._repeated.pop(topic, None)
+        else:
+            self._repeated[topic] = value
+            self._repeat_timer = self._repeat_timer or self.create_timer(1.0, self._send_again)
+
+    def load(self, milliseconds: float) -> None:
+        """Run a callback for so long, once a second; 0 ends that."""
+        self._load_s = milliseconds / 1000
+        self._load_timer = self._load_timer or self.create_timer(1.0, self._work)
+
+    def _work(self) -> None:
+        # This blocks the executor as a computation does, and leaves the processor to the page.
+        time.sleep(self._load_s)
+
+    def _send_again(self) -> None:
+        for topic, value in list(self._repeated.items()):
+            self._publish(topic, value)
+
+    def _publish(self, topic: str, value: float) -> None:
+        publisher = self._publishers_by_topic[topic]
+        publisher.publish(publisher.msg_type(data=value))
+
+
+class TopicFault:
+    """Drop or change what nodes publish on one topic.
+
+    The fault applies between a node and its publisher, before recording, so the recording contains
+    what was really sent.
+
+    Attributes:
+        kind: `none`, `dropout`, `nan` or `offset`.
+        amount: Of a dropout, the share of lost messages in percent; of an offset, the number to
+            add.
+    """
+
+    def __init__(self, topic: str) -> None:
+        self.kind, self.amount = "none", 0.0
+        self._topic = topic
+        # Its own generator, so that the numbers which the nodes draw stay as they are.
+        self._random = Random(0)
+        self._originals: dict[Publisher, Callable[[Any], None]] = {}
+
+    def apply(self, publishers: Iterable[Publisher]) -> None:
+        """Disturb these publishers, too, as far as they are on the topic."""
+        for publisher in publishers:
+            if publisher.topic_name == self._topic and publisher not in self._originals:
+                self._originals[publisher] = publisher.publish
+                publisher.publish = partial(self._publish, publisher.publish)
+
+    def remove(self) -> None:
+        """Let every publisher publish as before."""
+        self.kind = "none"
+        for publisher, publish in self._originals.items():
+            publisher.publish = publish
+        self._originals.clear()
+
+    def _publish(self, send: Callable[[Message], None], msg: Message) -> None:
+        if self.kind == "dropout" and self._random.uniform(0, 100) < self.amount:
+            return
+        send(self._changed(msg))
+
+    def _changed(self, msg: Message) -> Message:
+        value = getattr(msg, "data", None)
+        if not isinstance(value, float):  # bytes, or what rclpy refuses in its own words
+            return msg
+        if self.kind == "nan":
+            return type(msg)(data=nan)
+        return type(msg)(data=value + self.amount) if self.kind == "offset" else msg

@@ -36,9 +36,8 @@ from rclpy.task import Task
 from rosbeat.errors import EndlessChainError, SessionError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
-from rosbeat.ros.entities import Entry, NodeState
 from rosbeat.ros.errors import never_made
-from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
+from rosbeat.ros.processes import Call, Entry, NodeState, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
 from rosbeat.ros.wait_set import NOT_OF_CALLBACKS, Coroutines, Waiting, WaitSetExecutor
@@ -549,8 +548,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def start_main(self, main: Callable[[], None], process: Process) -> None:
         """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
-        program = process.program
-        assert program is not None
 
         def run() -> None:
             self.current = call = Call(process)
@@ -559,7 +556,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
             finally:
                 self._forget_call(call)
                 self.current = None
-                program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 

@@ -25,9 +25,8 @@ from rclpy.subscription import Subscription
 from rclpy.task import Task
 from rclpy.timer import Timer
 
-from rosbeat.ros.entities import Entry, NodeState, callback_name
 from rosbeat.ros.isolation import DeadlinePassed
-from rosbeat.ros.processes import Call, Process
+from rosbeat.ros.processes import Call, Entry, NodeState, Process, callback_name
 from rosbeat.ros.qos_events import event_name, topic_of
 
 if TYPE_CHECKING:

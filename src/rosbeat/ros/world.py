@@ -14,6 +14,7 @@ from types import FrameType
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
 
+import rclpy.utilities
 from greenlet import getcurrent
 from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
@@ -26,19 +27,37 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import action_of
-from rosbeat.ros.blocking import VirtualWaits
-from rosbeat.ros.clock import SessionClock, make_clock
-from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
+from rosbeat.ros.clock import SessionClock, VirtualWaits, make_clock
 from rosbeat.ros.context import SessionContext
-from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name
-from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
+from rosbeat.ros.errors import (
+    INSTEAD_OF_WAITING,
+    Console,
+    check_name,
+    deadlock,
+    deadlock_text,
+    fault_text,
+    foreign_node,
+    no_such_node,
+    node_has_ended,
+    note,
+    work_text,
+)
 from rosbeat.ros.faults import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
-from rosbeat.ros.launch import Launch, Maker, show_sim_time
+from rosbeat.ros.isolation import SeededRandom
+from rosbeat.ros.launch import Launch, Maker, build_in, show_sim_time
 from rosbeat.ros.live import LiveExecutor
-from rosbeat.ros.processes import Call, Process, Wait
+from rosbeat.ros.processes import (
+    TAKERS,
+    Call,
+    Entry,
+    NodeState,
+    Process,
+    Wait,
+    callback_name,
+    full_name,
+)
 from rosbeat.ros.qos_events import Limits, wait_for_stored
-from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
     Entity,
     Memory,
@@ -151,6 +170,41 @@ class World:
         state.process.refresh()
         if self.live is not None:
             self.live.wake()  # it may be waiting for this node
+
+    def pause(self, node: Node | str) -> None:
+        """Pause a node, given itself or by name; raise a SessionError if there is no such node."""
+        state = find(self, node)
+        self.pause_node(state)
+        state.paused = True
+
+    def resume(self, node: Node | str) -> None:
+        """Resume a node, given itself or by name.
+
+        Raises:
+            SessionError: If there is no such node, or it has ended.
+        """
+        state = find(self, node)
+        if state.ended:
+            raise node_has_ended(state.name)
+        self.spin_node(state)
+
+    def restart(self, name: str, maker: Maker) -> None:
+        """Make a node of this name as it was made before, and run its callbacks.
+
+        Raises:
+            SessionError: If another session is open.
+            NodeConstructionError: If its constructor raises.
+        """
+        # A node names no context, so it would land in the session that was opened last.
+        if rclpy.utilities.g_default_context is not self.context:
+            raise SessionError(
+                f"{name} cannot be started now.",
+                "Another session is open, and a new node would belong to that session.",
+                "Close the other session first, or wait until the running check has ended.",
+            )
+        (made,) = build_in(self, [maker.make], maker.start)
+        self.makers[made] = maker
+        self.spin_node(self._states[made])
 
     def end_process(self, process: Process) -> None:
         """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
