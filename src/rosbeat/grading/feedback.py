@@ -28,8 +28,8 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.cards import RIGHT, WRONG
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
+from rosbeat.grading.files import file_name
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
-from rosbeat.grading.remarks import REACHES_INSIDE, Remark
 from rosbeat.grading.rendering import (
     html,
     look_of,
@@ -43,9 +43,8 @@ from rosbeat.grading.rendering import (
     so_far,
     visible,
 )
-from rosbeat.grading.submissions import own_path, owner_of
+from rosbeat.grading.submissions import REACHES_INSIDE, Remark, own_path, owner_of
 from rosbeat.grading.traces import Picture, picture
-from rosbeat.grading.writing import file_names
 
 #: The folder of all such pages.
 FOLDER = "feedback"
@@ -87,8 +86,7 @@ def told_to(graded: Graded) -> list[Remark]:
 
 def feedback_files(book: Gradebook) -> dict[str, str]:
     """Return the file names of a class's pages, by learner."""
-    names = file_names((one.learner, one.name) for one in book.learners)
-    return {learner: f"{file}.html" for learner, file in names.items()}
+    return {one.learner: f"{file_name(one.learner, one.name)}.html" for one in book.learners}
 
 
 def _word_of(mark: Mark) -> str:

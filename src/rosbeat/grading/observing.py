@@ -192,8 +192,6 @@ def _put(files: Mapping[str, str], root: Path) -> None:
 _REAL = {
     "rosbeat": {"Session", "bags", "clinic", "workspace"},
     "rosbeat.ros.test_nodes": {"add_greenhouse"},
-    # As in pages of before it was renamed.
-    "rosbeat.scenarios.stranger": {"greenhouse"},
 }
 
 

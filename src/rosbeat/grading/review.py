@@ -25,17 +25,16 @@ from urllib.parse import parse_qs, quote
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.csv_table import cell, number
 from rosbeat.grading.feedback import code_of
+from rosbeat.grading.files import cell, number, write_whole
 from rosbeat.grading.groups import Group, groups_of
 from rosbeat.grading.manual import FILE, Line, apply_manual, points_by_hand, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
-from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import render
-from rosbeat.grading.results import previous_results, summary
+from rosbeat.grading.results import summary
 from rosbeat.grading.roster import Lookup, UnusableError
+from rosbeat.grading.submissions import Remark
 from rosbeat.grading.traces import picture
-from rosbeat.grading.writing import write_whole
 from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
 
 _COLUMNS = ("learner", "name", "exercise", "points", "comment")
@@ -76,7 +75,7 @@ class Review:
     def __init__(self, out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
         self.out, self._judged, self._write = out, judged, write
         self._lock = threading.RLock()
-        self._lookup, self._before = Lookup(judged.learners), previous_results(out)
+        self._lookup = Lookup(judged.learners)
         self.groups = groups_of(judged)
         self.expected = {one.exercise: one.trace for one in judged.solutions}
         self.is_written, self.said = True, ""
@@ -105,7 +104,7 @@ class Review:
     def _read(self) -> None:
         """Read manual.csv, which a person may have changed in an editor as well."""
         self._manual = read_manual(self.out / FILE)
-        self._book = apply_manual(self._judged, self._manual, self._before)
+        self._book = apply_manual(self._judged, self._manual)
         self._marks = {
             (graded.learner, mark.exercise): mark
             for graded in self._book.learners

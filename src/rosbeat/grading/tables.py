@@ -19,12 +19,10 @@ import re
 from collections.abc import Iterator, Sequence
 from html import escape
 
-from rosbeat.errors import GradingError
-from rosbeat.grading.csv_table import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
 from rosbeat.grading.feedback import told_to
+from rosbeat.grading.files import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number, printable
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
-from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.submissions import own_path
+from rosbeat.grading.submissions import Remark, own_path
 
 #: Excel takes a file for UTF-8 only if it begins with this; others skip it.
 _BYTE_ORDER_MARK = "\ufeff"
@@ -39,10 +37,6 @@ _MOODLE = (
 )
 _CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 _POINTS_POSSIBLE = "Points Possible"
-#: Columns of which Canvas makes no assignment, because its own export has them.
-_CANVAS_S_OWN = re.compile(
-    r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)", re.IGNORECASE
-)
 #: Signs of formulas as HTML, so that the file is harmless in a spreadsheet too.
 _AS_HTML = {ord(sign): f"&#{ord(sign)};" for sign in FORMULA_SIGNS}
 #: Characters of one sentence or comment in Moodle's feedback.
@@ -157,17 +151,8 @@ def canvas_csv(gradebook: Gradebook, assignment: str = "rosbeat") -> str:
 
     Returns:
         The file; empty if nobody's submission came from Canvas.
-
-    Raises:
-        GradingError: If Canvas would not take the title for that of an assignment.
     """
     learners = [one for one in gradebook.learners if one.system == "canvas"]
-    if not assignment.strip() or assignment in _CANVAS or _CANVAS_S_OWN.search(assignment):
-        raise GradingError(
-            f"{printable(assignment)!r} cannot be the title of an assignment in Canvas.",
-            "Canvas has a column of its own with that name, and would leave the points out.",
-            "Give the assignment's title, or its title with the number: Publishers (4711).",
-        )
     whole = max((one.out_of for one in learners), default=0.0)
     rows: list[tuple[str | float, ...]] = [(*_CANVAS, assignment)]
     rows.append((f"    {_POINTS_POSSIBLE}", "", "", "", "", whole))

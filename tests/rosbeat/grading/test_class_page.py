@@ -19,14 +19,16 @@ from rosbeat.exercises.share import DAY, LARGEST
 from rosbeat.grading.class_board import (
     DIAGRAMS,
     Advice,
+    ClassServer,
     Common,
     Tally,
     _examples,
     advice,
+    board_html,
     board_of,
+    shortcomings,
 )
 from rosbeat.grading.class_folder import ClassFolder
-from rosbeat.grading.class_page import ClassServer, board_html, shortcomings
 from sharing import NOW, PASSED, Clock, class_folder, learner, record, served
 
 LIVE = {"link", "noscript", "button", "kbd", "script", "b", "img"}

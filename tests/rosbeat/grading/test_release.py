@@ -14,7 +14,8 @@ from grading_files import page as page_text
 from rosbeat.errors import GradingError
 from rosbeat.exercises.hint import answer_to
 from rosbeat.grading import release as module
-from rosbeat.grading.course_pages import course_pages
+from rosbeat.grading.marks import Points
+from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.release import (
     FIRST_TO_CATCH_UP,
     WORKFLOW,
@@ -25,7 +26,6 @@ from rosbeat.grading.release import (
     without_links,
 )
 from rosbeat.grading.submissions import MARKER
-from rosbeat.grading.weights import Points
 from rosbeat.workspace.catching_up import NEEDS
 from small_course import small_course, tree
 

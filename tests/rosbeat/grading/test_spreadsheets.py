@@ -9,10 +9,9 @@ from html.parser import HTMLParser
 import pytest
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
-from rosbeat.errors import GradingError
-from rosbeat.grading.csv_table import cell, number
+from rosbeat.grading.files import cell
 from rosbeat.grading.marks import Gradebook, Graded
-from rosbeat.grading.remarks import Remark
+from rosbeat.grading.submissions import Remark
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
 
 NASTY = [
@@ -138,15 +137,6 @@ def test_a_text_stays_a_text(text, shown):
     assert len(cell(f"{text}=" + "x" * 100_000)) <= 32_767
 
 
-@pytest.mark.parametrize(
-    ("value", "shown"),
-    [(2, "2"), (2.0, "2"), (0.5, "0.5"), (1 / 3, "0.33333"), (10.0, "10"), (100, "100"),
-     (0.0, "0"), (-0.0, "0"), (-1e-9, "0"), (1e-5, "0.00001"), (0.1 + 0.2, "0.3")],
-)  # fmt: skip
-def test_a_number_is_short(value, shown):
-    assert number(value) == shown
-
-
 # Moodle.
 
 
@@ -266,11 +256,3 @@ def test_no_name_says_what_the_assignment_is_worth(name):
     text = canvas_csv(book(of("canvas", name=name)))
     assert text.casefold().count("points possible") == 1
     assert taken_by_canvas(text)[2] == {4711: "1.5"}
-
-
-@pytest.mark.parametrize("title", [" ", "Section", "current grade", "My Override Score"])
-def test_a_title_that_canvas_keeps_for_itself_is_refused(title):
-    with pytest.raises(GradingError, match="title of an assignment") as caught:
-        canvas_csv(book(of("canvas")), title)
-    assert caught.value.means
-    assert caught.value.to_try
