@@ -67,11 +67,6 @@ class Tally:
         """Return how many learners have checked an answer."""
         return self.passed + self.trying + self.stuck
 
-    @property
-    def is_hard(self) -> bool:
-        """Return whether several learners are stuck, and at least a fifth of those who tried."""
-        return self.stuck > 1 and self.stuck * 5 >= self.learners
-
 
 @dataclass(frozen=True)
 class Lesson:
@@ -109,18 +104,14 @@ class Board:
         learners: How many learners share.
         active: How many of them have checked an answer in the last `WINDOW` seconds.
         lessons: The pages on which somebody has checked an answer, those of the last minutes first.
-        untouched: The other pages.
         common: The most common mistakes of the last minutes.
-        nameless: Learners whose last check failed in a way that has no name, in these minutes.
         notices: What is wrong with the folder.
     """
 
     learners: int
     active: int
     lessons: tuple[Lesson, ...]
-    untouched: tuple[Page, ...]
     common: tuple[Common, ...]
-    nameless: int
     notices: tuple[str, ...]
 
     @property
@@ -139,14 +130,11 @@ def board_of(reading: Reading) -> Board:
         for page in PAGES
         if (tallies := _tallies(page, reading.learners))
     )
-    touched = {one.page for one in lessons}
     return Board(
         learners=len(reading.learners),
         active=sum(who.records[-1].time > since for who in reading.learners if who.records),
         lessons=tuple(sorted(lessons, key=lambda one: not one.is_now)),
-        untouched=tuple(page for page in PAGES if page not in touched),
         common=_common(reading.learners, since),
-        nameless=sum(_is_nameless(who, since) for who in reading.learners),
         notices=reading.notices,
     )
 
@@ -212,16 +200,6 @@ def _counted(name: str, made: list[tuple[Learner, set[str]]]) -> Common:
 
 def _passed(who: Learner) -> set[str]:
     return {one.exercise for one in who.records if one.status == PASSED}
-
-
-def _is_nameless(who: Learner, since: float) -> bool:
-    last = who.records[-1] if who.records else None
-    return (
-        last is not None
-        and last.time > since
-        and last.status == FAILED
-        and last.mistake not in MISTAKES
-    )
 
 
 # What to show and to say about a mistake.
@@ -384,7 +362,7 @@ class ClassServer(LocalServer):
         try:
             return board_of(self.folder.read())
         except GradingError as error:
-            return Board(0, 0, (), (), (), 0, (f"{error.what} {error.to_try}",))
+            return Board(0, 0, (), (), (f"{error.what} {error.to_try}",))
 
 
 class _Handler(LocalHandler):

@@ -48,8 +48,6 @@ from rosbeat.grading.traces import Picture, picture
 
 #: The folder of all such pages.
 FOLDER = "feedback"
-#: What an exercise without points waits for, by whether that is its file.
-_WAITS = {False: "waits for your instructor", True: "waits for the whole file"}
 #: What remarks are about that only an instructor reads.
 _FOR_INSTRUCTORS = frozenset({REACHES_INSIDE})
 _NAMELESS = "This is new to the course: it has no name for this mistake yet."
@@ -67,7 +65,6 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         graded=graded,
         pages=[(page, list(marks)) for page, marks in groupby(graded.marks, lambda one: one.page)],
         files=[(name(own_path(one.path)), one.text) for one in told_to(graded)],
-        word_of=_word_of,
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
         code_of=_code_to_show,
@@ -87,10 +84,6 @@ def told_to(graded: Graded) -> list[Remark]:
 def feedback_files(book: Gradebook) -> dict[str, str]:
     """Return the file names of a class's pages, by learner."""
     return {one.learner: f"{file_name(one.learner, one.name)}.html" for one in book.learners}
-
-
-def _word_of(mark: Mark) -> str:
-    return _WAITS[mark.waits_for_its_file] if mark.status == HELD else look_of(mark.status).word
 
 
 def _details(mark: Mark) -> Iterator[tuple[str, str]]:
@@ -252,10 +245,9 @@ def _cell(kind: str, source: str) -> dict[str, Any]:
 
 def _in_short(mark: Mark) -> Iterator[Markup]:
     """Yield what was found as blocks of HTML, which Markdown leaves as they are."""
-    reached = "no points yet" if mark.status == HELD else points_of(mark.points, mark.out_of)
-    sign = look_of(mark.status).sign
-    head = "<h2>{} {} {}: {}, {}</h2>"
-    yield html(head, sign, mark.exercise, mark.title, _word_of(mark), reached)
+    reached = "" if mark.status == HELD else f", {points_of(mark.points, mark.out_of)}"
+    look, head = look_of(mark.status), "<h2>{} {} {}: {}{}</h2>"
+    yield html(head, look.sign, mark.exercise, mark.title, look.word, reached)
     if mark.status != LOOKED_AT:
         yield _block(mark.evidence or mark.cause)
     for part in mark.parts:

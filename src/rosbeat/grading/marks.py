@@ -72,11 +72,6 @@ class Mark:
     source: str = ""
     trace: str = ""
 
-    @property
-    def waits_for_its_file(self) -> bool:
-        """Return whether it has no points yet because its file cannot be read that far."""
-        return self.status == HELD and bool(self.file) and not self.answer
-
 
 @dataclass(frozen=True)
 class Graded:

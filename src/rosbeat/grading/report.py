@@ -25,7 +25,6 @@ from rosbeat.grading.rendering import (
     most,
     name,
     render,
-    segments_of,
 )
 from rosbeat.grading.submissions import own_path
 from rosbeat.viz.words import count
@@ -40,7 +39,6 @@ _ABOUT = {
     "duplicate": "Handed in more than once",
     "renamed": "Under another name",
     "empty": "Empty files",
-    "half-uploaded": "Files that are not whole",
     "mended": "Files that were mended to be read",
     "wrong-course": "Notebooks of another course",
     "unreadable": "Files that cannot be read",
@@ -60,6 +58,7 @@ def class_report(book: Gradebook) -> str:
         "class.html",
         book=book,
         own_path=own_path,
+        segment=Segment,
         reached=(median(reached), mean(reached)) if (reached := shares(book)) else (),
         mistakes=mistakes,
         exercises=exercises,
@@ -67,12 +66,18 @@ def class_report(book: Gradebook) -> str:
         legend=f"Learners by outcome: {signs}",
         exercise_head=["Exercise", *map(_abbreviation, STATUSES)],
         exercise_rows=[
-            (one.exercise, *(one.counts.get(status, 0) for status in STATUSES)) for one in exercises
+            (one.exercise, *(one.statuses.count(status) for status in STATUSES))
+            for one in exercises
         ],
-        held=held(book),
-        cut_off=[
-            (name(learner.called), ", ".join(exercises), name(own_path(file)))
-            for learner, file, exercises in cut_off(book)
+        held=[
+            (
+                name(one.called),
+                f"{mark.exercise} {mark.title}",
+                name(own_path(mark.file)),
+                most(mark.cause, _MOST),
+            )
+            for one, mark in all_marks(book)
+            if mark.status == HELD
         ],
         learners=_learners(book),
         files=list(_files(book)),
@@ -126,22 +131,12 @@ def _repaired(learner: Graded, mark: Mark) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class ExerciseTally:
-    """Hold how one exercise went in a class."""
+    """Hold how one exercise went in a class: the status of each learner."""
 
     exercise: str
     title: str
     page: str
-    counts: dict[str, int]
-
-    @property
-    def learners(self) -> int:
-        """Return of how many learners it was graded."""
-        return sum(self.counts.values())
-
-    @property
-    def segments(self) -> list[Segment]:
-        """Return the parts of its bar."""
-        return segments_of(Counter(self.counts).elements(), of_class=True)
+    statuses: list[str]
 
 
 @dataclass(frozen=True)
@@ -170,11 +165,6 @@ class MistakeTally:
         return known.heading if known else "Mistakes without a name"
 
     @property
-    def segment(self) -> Segment:
-        """Return its bar."""
-        return Segment("failed", self.count, "answers")
-
-    @property
     def first_places(self) -> str:
         """Return where it was found most often, in words."""
         first = ", ".join(f"{exercise} {many}×" for exercise, many in self.places[:_PLACES])
@@ -187,15 +177,13 @@ def all_marks(book: Gradebook) -> Iterator[tuple[Graded, Mark]]:
     yield from ((learner, mark) for learner in book.learners for mark in learner.marks)
 
 
-def tally_exercises(book: Gradebook) -> tuple[ExerciseTally, ...]:
-    """Count the outcomes of each exercise, in the order of the course."""
-    counts: dict[tuple[str, str, str], Counter[str]] = defaultdict(Counter)
+def tally_exercises(book: Gradebook) -> list[ExerciseTally]:
+    """Gather the outcomes of each exercise, in the order of the course."""
+    found: dict[str, ExerciseTally] = {}
     for _, mark in all_marks(book):
-        counts[mark.page, mark.exercise, mark.title][mark.status] += 1
-    return tuple(
-        ExerciseTally(exercise, title, page, dict(found))
-        for (page, exercise, title), found in counts.items()
-    )
+        tally = ExerciseTally(mark.exercise, mark.title, mark.page, [])
+        found.setdefault(mark.exercise, tally).statuses.append(mark.status)
+    return list(found.values())
 
 
 def tally_mistakes(book: Gradebook) -> tuple[MistakeTally, ...]:
@@ -233,26 +221,6 @@ def shares(book: Gradebook) -> list[float]:
     """Return the points of learners with points and a grade, in per cent of what there was."""
     counted = [one for one in book.learners if one.out_of > 0 and not one.excused]
     return [100 * one.points / one.out_of for one in counted]
-
-
-def held(book: Gradebook) -> list[tuple[Graded, Mark]]:
-    """Return what is held for a person to look at."""
-    return [
-        (learner, mark)
-        for learner, mark in all_marks(book)
-        if mark.status == HELD and not mark.waits_for_its_file
-    ]
-
-
-def cut_off(book: Gradebook) -> list[tuple[Graded, str, list[str]]]:
-    """Return files that break off: the learner, the path, and the ids of exercises not in them."""
-    return [
-        (learner, file, [mark.exercise for mark in marks])
-        for learner in book.learners
-        for file, marks in groupby(
-            (mark for mark in learner.marks if mark.waits_for_its_file), lambda mark: mark.file
-        )
-    ]
 
 
 def empty_handed(book: Gradebook) -> list[Graded]:

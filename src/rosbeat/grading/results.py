@@ -161,14 +161,12 @@ def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
     if files:
         told = ", ".join(f"{times} {about}" for about, times in sorted(files.items()))
         yield f"{count(files.total(), 'remark')} about files: {told}."
-    held = [mark for mark in marks if mark.status == HELD]
+    held = sum(mark.status == HELD for mark in marks)
     if held:
-        half = sum(mark.waits_for_its_file for mark in held)
-        asked = f", {half} of them because of a file that cannot be read" if half else ""
-        yield f"Held for you to look at: {count(len(held), 'exercise')}{asked}."
         file = printable(str(out / MANUAL), 1000)
-        yield f"  class.html names them. Ask for files again; or mark with --review or in {file},"
-        yield "  and run the command again, same options."
+        yield f"Held for you to look at: {count(held, 'exercise')}; class.html says why."
+        yield f"  Ask for files again, or mark with --review or in {file}."
+        yield "  Then run the command again, same options."
     yield f"All results are in {printable(str(out), 1000)}; begin with class.html."
 
 

@@ -110,11 +110,8 @@ def _feedback_lines(graded: Graded) -> Iterator[str]:
         yield "<p>Nothing was handed in, so there is no grade.</p>"
     elif graded.is_settled:
         yield f"<p>{_html(number(graded.points))} of {_html(number(graded.out_of))} points.</p>"
-    elif any(mark.waits_for_its_file for mark in graded.marks):
-        said = "One of your files is not whole or cannot be read, so there are no points yet."
-        yield f"<p>{said} Hand it in again.</p>"
     else:
-        yield "<p>Your instructor will look at one of your answers; then there are points.</p>"
+        yield "<p>One of your exercises has no points yet; below is why.</p>"
     if graded.comment:
         yield f"<p>{_html(graded.comment)}</p>"
     yield from _file_lines(told_to(graded))

@@ -49,7 +49,7 @@ Compare the two names letter by letter.
 Open the page and run hint("03b").
 it has no name for this mistake yet
 There is still a blank, ____.
-04b raise the alarm: waits for your instructor, no points yet
+04b raise the alarm: no points yet
 It used more memory than there is.
 Its cell has lost its name.
 Your instructor has set the points
@@ -76,25 +76,9 @@ def test_a_strange_text_stays_text(text):
     assert len(page) < 400_000
 
 
-def test_a_page_without_marks_and_a_comment_on_a_missing_page():
-    page = feedback(Graded("7", "", "folder", ()))
-    assert "No exercise was graded." in page
-    assert "0 of 0 points" in page
-    page = feedback(Graded("7", "Bo", "folder", (mark("05a", "missing", comment="You were ill."),)))
-    assert "You were ill." in page
-
-
 def said_of(**values):
     graded = Graded("4711", "Ana", "folder", (mark("04a", **values),))
     return " ".join(Parsed(feedback(graded)).text.split())
-
-
-def test_an_exercise_behind_the_end_of_its_file_says_so_and_nothing_else():
-    said = "The file stops before this exercise: hand it in again."
-    text = said_of(status="held", cause=said, evidence=said, file="ana/04.ipynb")
-    assert f"04a watch a fridge: waits for the whole file, no points yet {said} What you" in text
-    assert "0 of 1 point so far" in text
-    assert "instructor looks" not in text
 
 
 def test_an_answer_that_is_nowhere_is_not_said_to_have_been_found():

@@ -26,18 +26,6 @@ def kept(path):
         return {key: ledger.get(key) for key in ledger._known}
 
 
-def test_what_is_added_is_there_now_and_later(path):
-    with Ledger(path) as ledger:
-        assert ledger.get("a") is None
-        ledger.add("a", OUTCOME)
-        assert (ledger.get("a"), len(ledger)) == (OUTCOME, 1)
-        assert kept(path) == {"a": OUTCOME}  # it is on the disk before the next answer
-        ledger.add("b", OUTCOME, stays=False)
-        assert ledger.get("b") == OUTCOME
-        ledger.add("a", replace(OUTCOME, points=2))
-    assert kept(path) == {"a": replace(OUTCOME, points=2)}
-
-
 def test_half_a_line_at_the_end_costs_that_line_only(path):
     with Ledger(path) as ledger:
         ledger.add("a", OUTCOME)

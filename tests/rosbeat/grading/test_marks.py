@@ -180,7 +180,6 @@ def test_a_page_that_cannot_be_read_waits_for_a_person_and_says_why(settled):
     mark = found["ana"].marks[0]
     assert mark.cause == "The page cannot be read. The file is empty."
     assert (mark.file, mark.hint) == ("ana/03_write.ipynb", "Hand the page in again.")
-    assert mark.waits_for_its_file
     assert found["ana"].grade is None
     assert told(found["ben"])[0] == ("03a", PASSED, 3.0)
 

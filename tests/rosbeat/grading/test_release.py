@@ -14,13 +14,11 @@ from grading_files import page as page_text
 from rosbeat.errors import GradingError
 from rosbeat.exercises.hint import answer_to
 from rosbeat.grading import release as module
-from rosbeat.grading.marks import Points
 from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.release import (
     FIRST_TO_CATCH_UP,
     WORKFLOW,
     catches_up,
-    readme,
     release,
     release_files,
     without_links,
@@ -61,15 +59,6 @@ def test_a_release_has_what_learners_need(root, target):
     given = json.loads(found[PAGE])["cells"]
     assert given[1:] == json.loads((root / PAGE).read_text())["cells"][1:]
     assert os.access(target / "environment/course", os.X_OK)
-
-
-def test_a_second_time_nothing_is_to_do(root, target):
-    first = release(root, target)
-    before = {path: path.stat().st_mtime_ns for path in target.rglob("*") if path.is_file()}
-    second = release(root, target)
-    assert (second.written, second.removed, second.kept) == ((), (), ())
-    assert second.same == len(first.written)
-    assert before == {path: path.stat().st_mtime_ns for path in target.rglob("*") if path.is_file()}
 
 
 def test_what_nobody_has_changed_is_brought_up_to_date(root, target):
@@ -165,17 +154,6 @@ def test_other_folders_and_points_are_refused(root, target, tmp_path, says):
             release(root, place)
         says(caught.value, "nothing was written")
     assert tree(target) == {"thesis.txt": "mine"}
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["", "[]", '{"format": 99, "files": {}}', '{"format": 1, "files": {"a": 1}}', "\xff"],
-)  # fmt: skip
-def test_a_marker_that_is_none_is_refused(root, target, text):
-    target.mkdir(parents=True)
-    (target / MARKER).write_text(text, encoding="latin-1")
-    with pytest.raises(GradingError):
-        release(root, target)
 
 
 def test_a_marker_leads_to_no_other_place(root, target, tmp_path):
@@ -292,13 +270,6 @@ def test_only_pages_that_begin_where_others_end_bring_the_finished_package(real_
     assert not any("/finished/" in name for name in release_files(ROOT, first))
     needing = [page for page in real_pages if NEEDS.get(page.number, "") > "02"]
     assert all(catches_up([page]) for page in needing)
-
-
-def test_links_of_the_readme_lead_somewhere(real_pages, files):
-    text = readme(real_pages, Points())
-    links = [part.split(")")[0] for part in text.split("](")[1:]]
-    assert len(links) > len(real_pages)
-    assert set(links) <= set(files)
 
 
 PROGRAM = """

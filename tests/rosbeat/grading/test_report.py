@@ -3,7 +3,6 @@
 import re
 from dataclasses import replace
 from importlib.resources import files
-from xml.etree import ElementTree
 
 import pytest
 
@@ -43,13 +42,13 @@ def sections(page):
 
 
 SAID = """
-1 learner, 10 exercises. 1 answer waits for you to look at.
+1 learner, 10 exercises. 1 exercise waits for you to look at.
 Judged by version 0.1.0
 Median 44 %, mean 44 % of the points.
 A topic name that no other node uses
 Hint for the class: Compare the two names letter by letter.
 03 Write a publisher
-Ana Muster (4711), 04b raise the alarm in 04.ipynb It used more memory than there is.
+Ana Muster (4711) 04b raise the alarm 04.ipynb It used more memory than there is.
 Ana Muster homework (1).ipynb This is the page 03; it has another name.
 Ana Muster 04c Its cell has lost its name.
 """
@@ -58,14 +57,6 @@ Ana Muster 04c Its cell has lost its name.
 def test_everything_is_said():
     text = text_of(class_report(ONE))
     assert [said for said in SAID.strip().split("\n") if said not in text] == []
-
-
-def test_each_drawing_is_said_in_words():
-    elements = Parsed(class_report(a_class(30))).elements
-    drawn = [attrs for tag, attrs in elements if tag == "svg"]
-    assert len(drawn) > 40
-    assert all(attrs["role"] == "img" and ": " in attrs["aria-label"] for attrs in drawn)
-    assert [tag for tag, _ in elements].count("table") > 5
 
 
 @pytest.mark.parametrize("size", [0, 1, 1000])
@@ -96,14 +87,6 @@ def test_every_learner_has_points_and_a_link_to_the_feedback():
     text = text_of(page)
     one = learners[0]
     assert f"Ünal & 0 0000 {number(one.points)} ? {number(one.out_of)} 1 Ünal & 1 0001" in text
-
-
-def test_what_was_looked_at_waits_for_nobody_and_is_no_mistake():
-    seen = mark("03a", "looked at", points=0.5, manual=True, answer="import os")
-    text = text_of(class_report(Gradebook("1", (replace(one_of_each(), marks=(seen,)),))))
-    for said in ("No answer waits for you.", "No answer failed.", "✎ looked at by you 1"):
-        assert said in text
-    assert "import os" not in text
 
 
 @pytest.mark.parametrize(
@@ -138,11 +121,11 @@ BOOK = Gradebook(
 
 
 def test_a_class_is_counted():
-    first, second = tally_exercises(BOOK)
-    assert (first.exercise, second.exercise) == ("03a", "04a")
-    assert first.counts == {"passed": 1, "failed": 1, "held": 1, "missing": 1}
-    assert second.counts == {"failed": 3, "missing": 1}
-    assert first.learners == second.learners == 4
+    found = {one.exercise: one.statuses for one in tally_exercises(BOOK)}
+    assert found == {
+        "03a": ["passed", "failed", "held", "missing"],
+        "04a": ["failed", "failed", "failed", "missing"],
+    }
     first, second = tally_mistakes(BOOK)
     assert (first.mistake, first.count, first.learners) == ("boundary", 3, 2)
     assert (first.places, first.hint) == ((("04a", 2), ("03a", 1)), "two")
@@ -186,25 +169,6 @@ def test_a_text_makes_no_elements_and_what_is_hidden_in_it_is_shown():
     assert paragraph("a\n  b") == "<pre>a\n  b</pre>"
     assert prose("a\nb") == '<p class="said" dir="auto">a\nb</p>'
     assert paragraph(" ") == prose(" ") == ""
-
-
-def test_a_table_has_headings_of_both_kinds_and_a_long_one_is_folded():
-    page = class_report(ONE)
-    scopes = {attrs["scope"] for tag, attrs in Parsed(page).elements if tag == "th"}
-    assert scopes == {"col", "row"}
-    many = replace(one_of_each(), remarks=one_of_each().remarks * 12)
-    assert "<summary>Under another name (12)</summary>" in class_report(Gradebook("1", (many,)))
-
-
-def test_lengths_of_a_bar_are_shares_and_a_number_stands_where_it_fits():
-    marks = [mark("03a")] * 199 + [mark("03a", "failed")]
-    learners = tuple(Graded(str(n), "", "folder", (one,)) for n, one in enumerate(marks))
-    bars = re.findall(r"<svg.*?</svg>", class_report(Gradebook("1", learners)))
-    (tree,) = [one for one in map(ElementTree.fromstring, bars) if len(list(one.iter("rect"))) == 2]
-    widths = [(one.get("class"), one.get("x"), one.get("width")) for one in tree.iter("rect")]
-    assert widths == [("passed", "0.000%", "99.500%"), ("failed", "99.500%", "0.500%")]
-    assert [one.text for one in tree.iter("text")] == ["199"]
-    assert tree.get("aria-label") == "03a another sensor: 199 passed, 1 not there yet"
 
 
 # Colours: text and edges can be made out, in both themes.

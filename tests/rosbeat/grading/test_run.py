@@ -24,7 +24,7 @@ from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.marks import Points
 from rosbeat.grading.run import Plan, Pool, Worker, cause_of, files_before, grade
 from rosbeat.grading.submissions import collect
-from rosbeat.grading.worker import LOST_AT_MOST, environment, limits_of, view_of_answers
+from rosbeat.grading.worker import environment
 from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
 from rosbeat.workspace.catching_up import Report
 
@@ -357,25 +357,6 @@ def test_nothing_is_left_when_somebody_stops_in_the_middle(notes, eventually):
 
 
 # What a worker gives answers, and what it believes of them.
-
-
-def test_who_loses_time_to_endless_answers_has_less_for_the_others():
-    walls = [limits_of(JOB, lost).wall for lost in (0, 60, LOST_AT_MOST - 30, LOST_AT_MOST, 1e6)]
-    assert walls == [60, 60, 30, 10, 10]
-    one, whole = limits_of(JOB), limits_of(Job("01a", "x", "y", replay=("y",)))
-    assert (whole.wall, whole.processes) > (one.wall, one.processes)
-
-
-def test_the_sandbox_has_no_answers_in_it_and_nothing_of_this_environment(monkeypatch):
-    monkeypatch.setenv("MY_SECRET", "x")
-    monkeypatch.setenv("HOME", "/somewhere")
-    view = view_of_answers()
-    assert {Path(one).name for one in view.hidden} == {"solved", "grading", "authoring", "finished"}
-    assert all(Path(one).is_dir() for one in view.hidden)
-    assert view.environment["HOME"] == "/tmp"
-    for given in (view.environment, environment()):
-        assert "MY_SECRET" not in given
-        assert given["PATH"] == "/usr/bin:/bin"
 
 
 OF_REHEARSAL = Fault(0, "/rehearsal", "__init__", "RCLError", "no type support", 5, "")
