@@ -14,7 +14,6 @@ from hostile.deed import CANARY, TRACE
 from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large
 from hostile.pages import ROOT
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.marks import settle
 from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.results import write_results
 from rosbeat.grading.run import Plan, Pool, grade
@@ -62,7 +61,7 @@ def _graded(folder, out, see=lambda _: None):
 
     with Ledger(out / "judged.jsonl") as ledger:
         found = collect(folder, plan.pages)
-        gradebook = settle(grade(found, plan, ledger, observe, lambda *_: None), found)
+        gradebook = grade(found, plan, ledger, observe, lambda *_: None)
     write_results(out, gradebook)
     return gradebook
 

@@ -37,7 +37,7 @@ from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version, seed_of
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import apply_manual, read_manual
-from rosbeat.grading.marks import HELD, Gradebook, Points, read_points, settle
+from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
 from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
 from rosbeat.grading.release import Released, catches_up, release
 from rosbeat.grading.results import summary, write_results
@@ -259,7 +259,6 @@ def _page(page: HandedIn) -> dict[str, Any]:
     return {
         **{"page": page.page, "path": page.path, "late": page.late, "modified": page.modified},
         **{"cells": len(page.notebook.cells), "problem": page.notebook.problem},
-        "repairs": list(page.notebook.repairs),
     }
 
 
@@ -301,8 +300,9 @@ def run_grade(options: argparse.Namespace) -> int:
     for line in (changes(options.out, typed), _UNSAFE * options.unsafe_no_sandbox):
         if line:
             print(line, file=sys.stderr)
-    plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages))
-    judged = settle(_judged(found, plan, options), found, options.missing == "empty")
+    excuses = options.missing == "empty"
+    plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages), excuses)
+    judged = _judged(found, plan, options)
     gradebook = apply_manual(judged, manual)
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)

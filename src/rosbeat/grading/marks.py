@@ -7,14 +7,14 @@ What exercises are worth is the course's, or an instructor's (`read_points`).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.registry import EXERCISES, PAGES
 from rosbeat.grading.files import printable, read_table
-from rosbeat.grading.submissions import Collection, HandedIn, Remark, Submission
+from rosbeat.grading.submissions import Remark
 from rosbeat.records import Outcome, Part
 
 #: The status of an exercise besides those of an outcome: its page was not handed in; it has no
@@ -151,57 +151,6 @@ class Gradebook:
     def with_a_grade(self) -> tuple[Graded, ...]:
         """Return the learners whose points are all known, who are those that averages are about."""
         return tuple(one for one in self.learners if one.grade is not None)
-
-
-# What the files say about the marks of their answers.
-
-
-def settle(gradebook: Gradebook, found: Collection, empty: bool = False) -> Gradebook:
-    """Hold what cannot be read, and take off points for what is late.
-
-    Args:
-        gradebook: What was judged.
-        found: What was handed in.
-        empty: Whether a learner who handed in nothing gets no grade instead of 0 points.
-
-    Returns:
-        The gradebook. Nobody has 0 points for a page that was there and cannot be read.
-    """
-    submissions = {one.learner: one for one in found.submissions}
-    learners = (_settled(one, submissions.get(one.learner), empty) for one in gradebook.learners)
-    return replace(gradebook, learners=tuple(learners))
-
-
-def _settled(graded: Graded, one: Submission | None, empty: bool) -> Graded:
-    if one is None:
-        return graded
-    pages = {page.page: page for page in one.pages}
-    marks = tuple(_settled_mark(mark, pages.get(mark.page), one) for mark in graded.marks)
-    missing = all(mark.status == MISSING for mark in marks)
-    return replace(graded, marks=marks, excused=empty and missing)
-
-
-def _settled_mark(mark: Mark, page: HandedIn | None, one: Submission) -> Mark:
-    if page is not None and page.notebook.problem:
-        return _unread(mark, page.path, page.notebook.problem, page.late)
-    if page is None and one.unread:
-        first = one.unread[0]
-        return _unread(mark, first.path, f"It may be in {first.path}. {first.text}", late=False)
-    if page is None or not page.off:
-        return mark
-    return replace(mark, points=round(mark.points * (1 - page.off), 2))
-
-
-def _unread(mark: Mark, file: str, why: str, late: bool) -> Mark:
-    """Return the mark of an exercise whose page was there and cannot be read."""
-    said = f"The page cannot be read. {why}"
-    return Mark(
-        *(mark.exercise, mark.title, mark.page, HELD, 0.0, mark.out_of, said),
-        evidence=said,
-        hint="Hand the page in again.",
-        late=late,
-        file=file,
-    )
 
 
 # What exercises are worth.

@@ -1,4 +1,4 @@
-"""Read a submitted notebook as untrusted input, and repair it where that is fair.
+"""Read a submitted notebook as untrusted input.
 
 Nothing is executed. Outputs are dropped, however large they are, and the only metadata that is read
 identifies the page and the exercise of a cell.
@@ -47,13 +47,11 @@ class Notebook:
 
     Attributes:
         lesson: The page that it says it is, such as `03_write_a_publisher`; or empty.
-        repairs: What was repaired to read it, a sentence each.
         problem: Why nothing could be read, a sentence; or empty.
     """
 
     cells: tuple[Cell, ...] = ()
     lesson: str = ""
-    repairs: tuple[str, ...] = ()
     problem: str = ""
 
 
@@ -63,12 +61,10 @@ def read_notebook(data: bytes) -> Notebook:
         return Notebook(problem="The file is empty.")
     if sum(map(data.count, (b",", b"[", b"{"))) > MOST_VALUES:
         return Notebook(problem="The file has millions of values, more than any page.")
-    repairs: list[str] = []
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = data.decode("utf-8", "replace")
-        repairs.append("Its text is not UTF-8; what cannot be read was replaced.")
+        return Notebook(problem="The file is not a notebook: it is not UTF-8.")
     try:
         whole = json.loads(text)
     except (ValueError, RecursionError):
@@ -78,7 +74,7 @@ def read_notebook(data: bytes) -> Notebook:
         return Notebook(problem=problem)
     if not isinstance(whole, dict) or not isinstance(whole.get("cells"), list):
         return Notebook(problem="The file is JSON, but not a notebook: it has no cells.")
-    return _made(whole["cells"], _name(_ours(whole).get("lesson")), repairs)
+    return _made(whole["cells"], _name(_ours(whole).get("lesson")))
 
 
 def _ours(of: dict[str, Any]) -> dict[str, Any]:
@@ -88,22 +84,18 @@ def _ours(of: dict[str, Any]) -> dict[str, Any]:
     return ours if isinstance(ours, dict) else {}
 
 
-def _made(cells: list[Any], lesson: str, repairs: list[str]) -> Notebook:
+def _made(cells: list[Any], lesson: str) -> Notebook:
     if len(cells) > MOST_CELLS:
-        repairs.append(f"It has {len(cells)} cells; the first {MOST_CELLS} were read.")
-    read = [_read_cell(n, one, repairs) for n, one in enumerate(cells[:MOST_CELLS])]
-    found = tuple(one for one in read if one is not None)
+        return Notebook((), lesson, f"It has {len(cells)} cells, more than any page.")
+    found = [_read_cell(n, one) for n, one in enumerate(cells) if isinstance(one, dict)]
     for one in found:
         if len(one.source) > MOST_OF_A_CELL:
             said = f"Cell {one.place + 1} has {len(one.source)} characters, more than any answer."
-            return Notebook((), lesson, problem=said)
-    return Notebook(found, lesson, tuple(repairs))
+            return Notebook((), lesson, said)
+    return Notebook(tuple(found), lesson)
 
 
-def _read_cell(place: int, cell: Any, repairs: list[str]) -> Cell | None:  # noqa: ANN401
-    if not isinstance(cell, dict):
-        repairs.append(f"Cell {place + 1} is not a cell, and was left out.")
-        return None
+def _read_cell(place: int, cell: dict[str, Any]) -> Cell:
     names = _ours(cell)
     sort = cell.get("cell_type")
     return Cell(

@@ -39,7 +39,6 @@ _ABOUT = {
     "duplicate": "Handed in more than once",
     "renamed": "Under another name",
     "empty": "Empty files",
-    "mended": "Files that were mended to be read",
     "wrong-course": "Notebooks of another course",
     "unreadable": "Files that cannot be read",
     "left-out": "Files that were left out",

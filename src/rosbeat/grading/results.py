@@ -14,7 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from rosbeat.errors import GradingError, RecordError
+from rosbeat.errors import RecordError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.feedback import FOLDER as FEEDBACK
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
@@ -25,7 +25,7 @@ from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
 from rosbeat.grading.report import class_report
 from rosbeat.grading.submissions import Remark
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
-from rosbeat.records_json import as_data, from_json, read_head
+from rosbeat.records_json import as_data, from_json
 from rosbeat.viz.words import count, sentence_case
 
 RESULTS = "results.json"
@@ -95,8 +95,8 @@ def _write(path: Path, content: str | bytes) -> None:
 
 def previous_results(out: Path) -> Gradebook:
     """Read what was written the last time; nothing, if there is nothing that can be read."""
-    with suppress(OSError, RecordError, GradingError, ValueError):
-        return from_results((out / RESULTS).read_text(encoding="utf-8"))
+    with suppress(OSError, RecordError):
+        return from_json(Gradebook, (out / RESULTS).read_bytes(), "results")
     return Gradebook("", ())
 
 
@@ -120,17 +120,6 @@ def to_results(gradebook: Gradebook) -> str:
 def _leave_out(document: dict[str, Any], kind: str) -> None:
     for name in LEFT_OUT[kind]:
         del document[name]
-
-
-def from_results(text: str) -> Gradebook:
-    """Read what `to_results` wrote; what it leaves out is empty.
-
-    Raises:
-        RecordError: If it is not JSON, of another format or version, or if any field is missing or
-            of another type.
-    """
-    read_head(text, "file of results", FORMAT, VERSION)
-    return from_json(Gradebook, text, "results")
 
 
 # What a terminal is told.

@@ -59,6 +59,7 @@ class Plan:
         points: What exercises are worth.
         seed: From what the inputs of scenarios are drawn; 0 on a page. See `ledger.seed_of`.
         solved: The same pages with the published solutions, as far as there are any.
+        excuses: Whether a learner who handed in nothing gets no grade instead of 0 points.
     """
 
     pages: tuple[CoursePage, ...]
@@ -66,6 +67,7 @@ class Plan:
     points: Points = field(default_factory=Points)
     seed: int = 0
     solved: Mapping[str, tuple[Cell, ...]] = field(default_factory=dict)
+    excuses: bool = False
 
     def out_of(self, exercise: str) -> float:
         """Return what an exercise is worth."""
@@ -122,7 +124,7 @@ def all_answers(collection: Collection, plan: Plan) -> Answers:
         )
         for one in collection.submissions
         for handed in one.pages
-        if handed.page in pages
+        if handed.page in pages and not handed.notebook.problem
     }
 
 
@@ -167,14 +169,18 @@ def _graded(one: Submission, answers: Answers, plan: Plan, ledger: Ledger) -> Gr
     handed = {page.page: page for page in one.pages}
     marks: list[Mark] = []
     for page in plan.pages:
-        if page.lesson in handed:
-            found = answers[one.learner, page.lesson]
-            marks += [_mark(answer, handed[page.lesson], plan, ledger) for answer in found]
+        there = handed.get(page.lesson)
+        if there is None or there.notebook.problem:
+            marks += _without_page(page, one, there, plan)
         else:
-            marks += _missing(page, plan)
+            found = answers[one.learner, page.lesson]
+            marks += [_mark(answer, there, plan, ledger) for answer in found]
     remarks = (*one.remarks, *_remarks(one, answers))
     files = tuple((page.page, page.path) for page in one.pages)
-    return Graded(one.learner, one.name, one.system, tuple(marks), remarks, files=files)
+    excused = plan.excuses and all(mark.status == MISSING for mark in marks)
+    return Graded(
+        *(one.learner, one.name, one.system, tuple(marks), remarks), excused=excused, files=files
+    )
 
 
 def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
@@ -196,7 +202,8 @@ def _mark(answer: Answer, handed: HandedIn, plan: Plan, ledger: Ledger) -> Mark:
     out_of = plan.out_of(exercise.id)
     points = scaled(outcome, out_of)
     mark = Mark(
-        *(exercise.id, exercise.title, handed.page, outcome.status, points, out_of),
+        *(exercise.id, exercise.title, handed.page, outcome.status),
+        *(round(points * (1 - handed.off), 2), out_of),
         cause=cause_of(outcome),
         mistake=outcome.mistake,
         evidence=outcome.evidence,
@@ -239,13 +246,27 @@ def cause_of(outcome: Outcome) -> str:
     return printable(named, 400) if outcome.status == FAILED else named
 
 
-def _missing(page: CoursePage, plan: Plan) -> Iterator[Mark]:
+def _without_page(
+    page: CoursePage, one: Submission, handed: HandedIn | None, plan: Plan
+) -> Iterator[Mark]:
+    """Yield the marks of a page that is not there, or was and cannot be read: nobody has 0 then."""
+    file, cause = "", "The page is not among the files that were handed in."
+    if handed is not None:
+        file, cause = handed.path, f"The page cannot be read. {handed.notebook.problem}"
+    elif one.unread:
+        file, why = one.unread[0].path, one.unread[0].text
+        cause = f"The page cannot be read. It may be in {file}. {why}"
     for exercise in dict.fromkeys(wanted.exercise for wanted in page.wanted):
         out_of = plan.out_of(exercise)
         if out_of > 0:
-            title = EXERCISES[exercise].title
-            cause = "The page is not among the files that were handed in."
-            yield Mark(exercise, title, page.lesson, MISSING, 0.0, out_of, cause)
+            status, title = HELD if file else MISSING, EXERCISES[exercise].title
+            yield Mark(
+                *(exercise, title, page.lesson, status, 0.0, out_of, cause),
+                evidence=cause if file else "",
+                hint="Hand the page in again." if file else "",
+                late=handed is not None and handed.late,
+                file=file,
+            )
 
 
 # The workspace that a page of terminals starts from.

@@ -31,8 +31,8 @@ class Remark:
     """Tell something about one file.
 
     Attributes:
-        about: What it is: `late`, `duplicate`, `renamed`, `empty`, `mended`, `wrong-course`,
-            `unreadable` or `left-out`; or `manual`, a line of `manual.csv`; or
+        about: What it is: `late`, `duplicate`, `renamed`, `empty`, `wrong-course`, `unreadable`
+            or `left-out`; or `manual`, a line of `manual.csv`; or
             `roster`, a line of the roster or somebody who is not on it; or `reaches-inside`, an
             answer that reaches for what observes it.
         path: The file, as it was named, made safe to print.
@@ -335,7 +335,6 @@ class _Reader:
             self._keep(owner, file, notebook, named)
 
     def _page(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
-        self.remarks += [Remark("mended", file.path, one) for one in notebook.repairs]
         if page.lesson not in owner.file:
             text = f"By its content, this is the page {page.lesson}; it has another name."
             self.remarks.append(Remark("renamed", file.path, text))

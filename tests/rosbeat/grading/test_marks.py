@@ -8,15 +8,11 @@ import pytest
 from grading_files import PAGE_03
 from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import FAILED, PASSED
+from rosbeat.grading import run
 from rosbeat.grading.deadlines import LateRule, mark_late, read_due, read_late_rule
-from rosbeat.grading.marks import (
-    Gradebook,
-    Graded,
-    Mark,
-    read_points,
-    scaled,
-    settle,
-)
+from rosbeat.grading.jobs import Evidence
+from rosbeat.grading.ledger import Ledger
+from rosbeat.grading.marks import Points, read_points, scaled
 from rosbeat.grading.submissions import Collection, Submission, collect
 from rosbeat.records import Outcome
 
@@ -141,8 +137,13 @@ def test_what_is_no_rule_is_refused(text, says):
 
 
 @pytest.fixture
-def settled(handed_in, pages):
-    """Settle marks: all that is on a page of these files was judged to be right, 3 of 3 points."""
+def settled(handed_in, pages, tmp_path, monkeypatch):
+    """Grade files of which every answer is right, for 3 of 3 points."""
+    right = Outcome("03a", PASSED, points=2, out_of=2)
+    monkeypatch.setattr(run, "judge_and_trace", lambda *_: (right, ""))
+
+    def observe(jobs):
+        yield from ((key, Evidence("ended")) for some in jobs for key, _ in some)
 
     def settle_files(files, rule=None, due=0.0, empty=False, modified=1.0, absent=()):
         root = handed_in(files)
@@ -150,24 +151,15 @@ def settled(handed_in, pages):
             os.utime(path, (modified, modified))
         found = collect(root, pages)
         more = tuple(Submission(one, one, "folder") for one in absent)
-        found = Collection((*found.submissions, *more), found.remarks)
-        found = mark_late(found, lambda one: due, rule)
-        learners = tuple(_judged(one, pages) for one in found.submissions)
-        book = settle(Gradebook("1", learners), found, empty)
+        found = mark_late(
+            Collection((*found.submissions, *more), found.remarks), lambda one: due, rule
+        )
+        plan = run.Plan(pages, "1", Points({"03a": 3.0, "04a": 3.0}), excuses=empty)
+        with Ledger(tmp_path / "ledger") as ledger:
+            book = run.grade(found, plan, ledger, observe, lambda *_: None)
         return {one.learner: one for one in book.learners}
 
     return settle_files
-
-
-def _judged(one, pages):
-    handed = {page.page for page in one.pages}
-    marks = []
-    for page in pages:
-        status, points = (PASSED, 3.0) if page.lesson in handed else ("missing", 0.0)
-        for wanted in page.wanted:
-            marks.append(Mark(wanted.exercise, "t", page.lesson, status, points, 3.0, "c",
-                              judged=points))  # fmt: skip
-    return Graded(one.learner, one.name, one.system, tuple(marks), one.remarks)
 
 
 def told(graded):
@@ -194,8 +186,7 @@ def test_a_file_that_may_be_any_page_holds_those_that_are_missing(settled):
 def test_points_are_taken_off_late_pages_and_the_remark_says_it_once(settled):
     found = settled({"ana/03_write.ipynb": PAGE_03}, LateRule(0.1, DAY), modified=1.5 * DAY)["ana"]
     mark = found.marks[0]
-    assert (mark.points, mark.judged, mark.late) == (2.4, 3.0, False)
-    assert mark.cause == "c"
+    assert (mark.points, mark.judged, mark.late) == (2.4, 3.0, True)
     (said,) = [one.text for one in found.remarks]
     assert "is 1 d 12 h after the deadline. 20% of the points of this page are taken off." in said
 

@@ -21,7 +21,6 @@ from rosbeat.grading.release import (
     catches_up,
     release,
     release_files,
-    without_links,
 )
 from rosbeat.grading.submissions import MARKER
 from rosbeat.workspace.catching_up import NEEDS
@@ -327,13 +326,3 @@ def test_pages_in_which_somebody_has_worked_are_not_released(root, target, text,
         release(root, target)
     says(caught.value, said, "rosbeat build --no-run")
     assert not target.exists()
-
-
-def test_links_lead_only_to_pages_that_are_there():
-    text = (
-        "see [page 04](04_listen.ipynb), [4](04_x.ipynb#a-b) ![x](04.png) [y](https://a.b/04.ipynb)"
-    )
-    data = notebook(cell(f'{text}, [3](03_write.ipynb#a)\n"', "markdown")).encode()
-    found = json.loads(without_links(data, {"03_write"}))["cells"][0]["source"]
-    kept = "![x](04.png) [y](https://a.b/04.ipynb), [3](03_write.ipynb#a)"
-    assert found == f'see page 04, 4 {kept}\n"'

@@ -59,11 +59,11 @@ def test_everything_is_said():
     assert [said for said in SAID.strip().split("\n") if said not in text] == []
 
 
-@pytest.mark.parametrize("size", [0, 1, 1000])
+@pytest.mark.parametrize("size", [0, 1, 100])
 def test_classes_of_every_size(size):
     page = class_report(a_class(size))
     assert page == class_report(a_class(size))
-    assert len(page) < 1_000_000
+    assert len(page) < 200_000
     assert {tag for tag, _ in Parsed(page).elements} <= ELEMENTS
 
 
@@ -77,13 +77,13 @@ def test_strange_texts_stay_text():
 
 
 def test_every_learner_has_points_and_a_link_to_the_feedback():
-    learners = [replace(one, name=f"Ünal & {n}") for n, one in enumerate(a_class(700).learners)]
+    learners = [replace(one, name=f"Ünal & {n}") for n, one in enumerate(a_class(70).learners)]
     book = Gradebook("1", tuple(reversed(learners)))
     page = sections(class_report(book))["Learners"]
     links = [attrs["href"] for tag, attrs in Parsed(page).elements if tag == "a"]
     files = feedback_files(book)
     assert set(links) == {f"feedback/{files[one.learner]}" for one in learners}
-    assert len(links) == 700
+    assert len(links) == 70
     text = text_of(page)
     one = learners[0]
     assert f"Ünal & 0 0000 {number(one.points)} ? {number(one.out_of)} 1 Ünal & 1 0001" in text

@@ -7,7 +7,6 @@ import os
 import stat
 import struct
 import zipfile
-from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -19,10 +18,8 @@ from rosbeat.grading.deadlines import mark_late, read_due
 from rosbeat.grading.files import printable
 from rosbeat.grading.notebook import read_notebook, which_page
 from rosbeat.grading.submissions import (
-    Owner,
     collect,
     own_path,
-    owner_of,
     require_apart,
 )
 
@@ -164,23 +161,6 @@ def test_a_home_that_cannot_be_read_is_said(handed_in, pages, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("path", "wanted"),
-    [
-        ("Ana M_4711_assignsubmission_file_/x/03.ipynb", ("4711", "Ana M", "x/03.ipynb", "moodle")),
-        ("Ana_B_4711_assignsubmission_file_03.ipynb", ("4711", "Ana_B", "03.ipynb", "moodle")),
-        ("musterana_4711_99_03.ipynb", ("4711", "musterana", "03.ipynb", "canvas")),
-        ("musterana_LATE_4711_99_03-2.ipynb", ("4711", "musterana", "03.ipynb", "canvas", True, 2)),
-        ("ana/03-2.ipynb", ("ana", "ana", "03-2.ipynb", "folder")),
-        ("ana.zip", ("ana", "ana", "ana.zip", "folder")),
-        ("stray.ipynb", None),
-    ],
-)
-def test_a_path_tells_whose_a_file_is(path, wanted):
-    assert owner_of(tuple(path.split("/"))) == (Owner(*wanted) if wanted else None)
-    assert own_path(path) == (wanted[2] if wanted else path)
-
-
-@pytest.mark.parametrize(
     ("ana", "eve", "learners"),
     [
         ("Ana_4711_assignsubmission_file_", "Eve_5_assignsubmission_file_x_4711_assignsubmission_"
@@ -308,17 +288,6 @@ def test_the_date_in_a_zip_file_is_that_of_this_computer_as_a_deadline_is(tmp_pa
         deadline = read_due(due)
         (one,) = mark_late(collect(path, pages), lambda _, at=deadline: at).submissions
         assert one.pages[0].late == is_late
-
-
-def test_what_is_marked_as_late_is_late_whatever_the_clock_says(handed_in, pages):
-    root = handed_in({"a_LATE_1_9_03_write.ipynb": PAGE_03, "ana/x.ipynb": PAGE_03})
-    os.utime(root / "ana/x.ipynb", (1000, 1000))
-    assert [one.pages[0].late for one in collect(root, pages).submissions] == [True, False]
-    found = mark_late(collect(root, pages), lambda _: 40).submissions
-    said = [remark.text for one in found for remark in one.remarks if remark.about == "late"]
-    date = f"{datetime.fromtimestamp(1000):%Y-%m-%d %H:%M}"
-    after = f"The date of the file, {date}, is 16 min after the deadline."
-    assert said == ["It is marked as late.", after]
 
 
 # Broken archives and names: nothing is written, nobody else is harmed, nobody vanishes.
