@@ -43,13 +43,11 @@ from rosbeat.grading.rendering import (
     so_far,
     visible,
 )
-from rosbeat.grading.submissions import REACHES_INSIDE, Remark, own_path, owner_of
+from rosbeat.grading.submissions import REACHES_INSIDE, own_path, owner_of
 from rosbeat.grading.traces import Picture, picture
 
 #: The folder of all such pages.
 FOLDER = "feedback"
-#: What remarks are about that only an instructor reads.
-_FOR_INSTRUCTORS = frozenset({REACHES_INSIDE})
 _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 
 
@@ -64,7 +62,11 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         "learner.html",
         graded=graded,
         pages=[(page, list(marks)) for page, marks in groupby(graded.marks, lambda one: one.page)],
-        files=[(name(own_path(one.path)), one.text) for one in told_to(graded)],
+        files=[
+            (name(own_path(one.path)), one.text)
+            for one in graded.remarks
+            if one.about != REACHES_INSIDE  # that is for the instructor only
+        ],
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
         code_of=_code_to_show,
@@ -74,11 +76,6 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         LOOKED_AT=LOOKED_AT,
         MISSING=MISSING,
     )
-
-
-def told_to(graded: Graded) -> list[Remark]:
-    """Return the remarks about a learner's files that the learner reads, too."""
-    return [one for one in graded.remarks if one.about not in _FOR_INSTRUCTORS]
 
 
 def feedback_files(book: Gradebook) -> dict[str, str]:

@@ -257,8 +257,9 @@ def _submission(files: Sequence[tuple[Owner, File]], pages: Sequence[CoursePage]
         _chosen([one for one in reader.found if one[1].page == lesson], remarks)
         for lesson in sorted({one[1].page for one in reader.found}, key=lessons.index)
     ]
-    if reader.left_out > _MOST_LEFT_OUT:
-        text = f"{reader.left_out - _MOST_LEFT_OUT} more files are not notebooks."
+    remarks += reader.left_out[:_MOST_LEFT_OUT]
+    if len(reader.left_out) > _MOST_LEFT_OUT:
+        text = f"{len(reader.left_out) - _MOST_LEFT_OUT} more files are not notebooks."
         remarks.append(Remark("left-out", printable(first.name), text))
     unread = tuple(reader.unread)
     return Submission(first.id, first.name, first.system, tuple(chosen), tuple(remarks), unread)
@@ -273,58 +274,45 @@ class _Reader:
         self.found: list[_Found] = []
         self.remarks: list[Remark] = []
         self.unread: list[Remark] = []
-        self.left_out = 0
+        self.left_out: list[Remark] = []
 
     def read(self, owner: Owner, file: File) -> None:
         """Read one file."""
         if file.problem == EMPTY_FOLDER:
             self.remarks.append(Remark("empty", file.path, file.problem))
             return
-        named = next((page for page in self._pages if page.lesson in owner.file), None)
-        if not file.problem and not file.parts[-1].lower().endswith(_NOTEBOOKS):
-            self._another_format(owner, file, named)
-            return
         notebook = self._notebook(file)
         if notebook.problem:
-            self._unreadable(owner, file, notebook, named)
+            self._unreadable(owner, file, notebook)
             return
         page = which_page(notebook, owner.file, self._pages)
         if page is None:
             text = "It is a notebook, but not a page of this course, so it is left out."
             self.remarks.append(Remark("wrong-course", file.path, text))
-        else:
-            self._page(owner, file, notebook, page)
+            return
+        if page.lesson not in owner.file:
+            text = f"By its content, this is the page {page.lesson}; it has another name."
+            self.remarks.append(Remark("renamed", file.path, text))
+        self._keep(owner, file, notebook, page)
 
     def _notebook(self, file: File) -> Notebook:
+        name = file.parts[-1].lower()
+        if not file.problem and not name.endswith(_NOTEBOOKS):
+            is_archive = name.endswith(OTHER_ARCHIVES)
+            what = "an archive of a kind that is not opened" if is_archive else "not a notebook"
+            return Notebook(problem=f"The file is {what}.")
         try:
             return read_notebook(self._allowed.read(file))
         except OSError as error:
             return Notebook(problem=printable(str(error), 400))
 
-    def _another_format(self, owner: Owner, file: File, named: CoursePage | None) -> None:
-        """Note a file that is not a notebook; one that may hold a page waits for a person."""
-        is_archive = file.parts[-1].lower().endswith(OTHER_ARCHIVES)
-        if is_archive or named is not None:
-            what = "an archive of a kind that is not opened" if is_archive else "not a notebook"
-            problem = f"The file is {what}. Ask for the page itself, an .ipynb file."
-            self._unreadable(owner, file, Notebook(problem=problem), named)
-            return
-        is_typed = any("_assignsubmission_onlinetext" in part for part in file.parts)
-        what = "text that was typed into Moodle" if is_typed else "not a notebook"
-        self._leave_out(file, f"It is {what}, so it is left out.")
-
-    def _leave_out(self, file: File, text: str) -> None:
-        self.left_out += 1
-        if self.left_out <= _MOST_LEFT_OUT:
-            self.remarks.append(Remark("left-out", file.path, text))
-
-    def _unreadable(
-        self, owner: Owner, file: File, notebook: Notebook, named: CoursePage | None
-    ) -> None:
+    def _unreadable(self, owner: Owner, file: File, notebook: Notebook) -> None:
+        """Note a file that cannot be read; one that may hold a page waits for a person."""
+        named = next((page for page in self._pages if page.lesson in owner.file), None)
         name = file.parts[-1].lower()
         is_attempt = ".ipynb" in name or name.endswith((".zip", *OTHER_ARCHIVES)) or not name
         if named is None and not is_attempt:
-            self._leave_out(file, f"It is left out. {notebook.problem}")
+            self.left_out.append(Remark("left-out", file.path, notebook.problem))
             return
         about = "empty" if "is empty" in notebook.problem else "unreadable"
         remark = Remark(about, file.path, notebook.problem)
@@ -333,12 +321,6 @@ class _Reader:
             self.unread.append(remark)
         else:
             self._keep(owner, file, notebook, named)
-
-    def _page(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
-        if page.lesson not in owner.file:
-            text = f"By its content, this is the page {page.lesson}; it has another name."
-            self.remarks.append(Remark("renamed", file.path, text))
-        self._keep(owner, file, notebook, page)
 
     def _keep(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
         handed = HandedIn(page.lesson, file.path, notebook, owner.late, file.modified)

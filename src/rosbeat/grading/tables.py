@@ -16,13 +16,11 @@ Sources of the formats:
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from html import escape
 
-from rosbeat.grading.feedback import told_to
 from rosbeat.grading.files import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number, printable
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
-from rosbeat.grading.submissions import Remark, own_path
 
 #: Excel takes a file for UTF-8 only if it begins with this; others skip it.
 _BYTE_ORDER_MARK = "\ufeff"
@@ -41,8 +39,6 @@ _POINTS_POSSIBLE = "Points Possible"
 _AS_HTML = {ord(sign): f"&#{ord(sign)};" for sign in FORMULA_SIGNS}
 #: Characters of one sentence or comment in Moodle's feedback.
 _MOST_OF_A_LINE = 2_000
-#: Remarks about files in Moodle's feedback.
-_MOST_FILES = 10
 
 
 def grades_csv(gradebook: Gradebook) -> str:
@@ -114,21 +110,12 @@ def _feedback_lines(graded: Graded) -> Iterator[str]:
         yield "<p>One of your exercises has no points yet; below is why.</p>"
     if graded.comment:
         yield f"<p>{_html(graded.comment)}</p>"
-    yield from _file_lines(told_to(graded))
     for mark in graded.marks:
         reached = f"{number(mark.points)} of {number(mark.out_of)}"
         reached = "not settled yet" if mark.status == HELD else reached
         told = f"{mark.exercise}, {mark.title}: {reached}. {mark.cause}"
         comment = f"<br>{_html(mark.comment)}" if mark.comment else ""
         yield f"<p>{_html(told)}{comment}</p>"
-
-
-def _file_lines(remarks: Sequence[Remark]) -> Iterator[str]:
-    """Yield what was noticed about files, so that nobody has to guess where points went."""
-    for one in remarks[:_MOST_FILES]:
-        yield f"<p>{_html(f'{own_path(one.path)}: {one.text}')}</p>"
-    if len(remarks) > _MOST_FILES:
-        yield f"<p>And {len(remarks) - _MOST_FILES} more remarks about your files.</p>"
 
 
 def _html(text: str) -> str:

@@ -22,7 +22,6 @@ from rosbeat.grading.marks import Gradebook, Graded, Solution
 from rosbeat.grading.rendering import STATUSES
 from rosbeat.grading.report import class_report
 from rosbeat.grading.submissions import Remark
-from rosbeat.grading.tables import moodle_csv
 from rosbeat.grading.traces import trace_of
 from rosbeat.records import Observation, Sample
 
@@ -250,7 +249,6 @@ def test_what_only_an_instructor_reads_is_told_to_nobody_else():
     remark = Remark("reaches-inside", "ana/04.ipynb", "It imports gc.")
     graded = replace(one_of_each(), remarks=(remark,))
     assert "imports gc" not in feedback(graded)
-    assert "imports gc" not in moodle_csv(Gradebook("1", (graded,)))
     assert "imports gc" in class_report(Gradebook("1", (graded,)))
 
 

@@ -11,7 +11,6 @@ import pytest
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from rosbeat.grading.files import cell
 from rosbeat.grading.marks import Gradebook, Graded
-from rosbeat.grading.submissions import Remark
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
 
 NASTY = [
@@ -204,15 +203,6 @@ def test_the_feedback_says_when_there_are_no_points_yet():
     assert "One of your exercises has no points yet" in told
     assert "04b, raise the alarm: not settled yet. It used more memory than there is." in told
     assert "04c, the mean of five readings: 0.5 of 1." in told
-
-
-def test_the_feedback_tells_what_is_odd_about_files():
-    path = "Hao Li_20008_assignsubmission_file_/Abgabe <b>.docx"
-    remark = Remark("left-out", path, "It is no notebook, so it is left out.")
-    told = Shown(feedback(replace(of("moodle", mark()), remarks=(remark,) * 12))).text
-    assert told.count("Abgabe <b>.docx: It is no notebook, so it is left out.") == 10
-    assert "assignsubmission" not in told
-    assert "And 2 more remarks about your files." in told
 
 
 def test_a_long_feedback_breaks_off_between_two_paragraphs():
