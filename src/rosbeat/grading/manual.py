@@ -93,8 +93,7 @@ def apply_manual(gradebook: Gradebook, manual: Manual) -> Gradebook:
     remarks = list(manual.remarks)
     for line in manual.lines:
         try:
-            graded, mark = lookup.find(line.learner), None
-            mark = _mark(graded, line.exercise) if line.exercise else None
+            graded, mark = meant(line, lookup)
         except UnusableError as error:
             said = f"{error} Nothing is taken from this line. {error.to_try}"
             remarks.append(_remark(line.number, said))
@@ -106,15 +105,21 @@ def apply_manual(gradebook: Gradebook, manual: Manual) -> Gradebook:
     return replace(gradebook, learners=tuple(learners), remarks=(*gradebook.remarks, *remarks))
 
 
-def _mark(graded: Graded, exercise: str) -> Mark:
-    wanted = exercise.strip("' ").casefold()
+def meant(line: Line, lookup: Lookup[Graded]) -> tuple[Graded, Mark | None]:
+    """Return whom and which exercise a line is about; no exercise if it is about the whole.
+
+    Raises:
+        UnusableError: If there is no such learner or exercise.
+    """
+    graded, wanted = lookup.find(line.learner), line.exercise.strip("' ").casefold()
+    if not line.exercise:
+        return graded, None
     for mark in graded.marks:
         if mark.exercise in (wanted, f"0{wanted}"):  # 3a and 03a
-            return mark
-    shown = printable(exercise, 40)
+            return graded, mark
     graded_are = ", ".join(mark.exercise for mark in graded.marks) or "none"
     raise UnusableError(
-        f"There is no exercise {shown!r} among those that are graded.",
+        f"There is no exercise {printable(line.exercise, 40)!r} among those that are graded.",
         f"Write one of these, or leave it empty for a comment about the whole: {graded_are}.",
     )
 

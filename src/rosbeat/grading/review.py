@@ -28,7 +28,7 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.feedback import code_of
 from rosbeat.grading.files import cell, number, write_whole
 from rosbeat.grading.groups import Group, groups_of
-from rosbeat.grading.manual import FILE, Line, apply_manual, points_by_hand, read_manual
+from rosbeat.grading.manual import FILE, apply_manual, meant, points_by_hand, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
 from rosbeat.grading.rendering import render
 from rosbeat.grading.results import summary
@@ -143,8 +143,12 @@ class Review:
         gone = {(learner, exercise) for learner in members}
         rows = []
         for line in self._manual.lines:
-            whose, place = self._place(line)
-            if place not in gone:
+            whose, is_gone = "", False
+            with suppress(UnusableError):
+                graded, mark = meant(line, self._lookup)
+                whose = graded.name
+                is_gone = mark is not None and (graded.learner, mark.exercise) in gone
+            if not is_gone:
                 rows.append((line.learner, whose, line.exercise, line.points, line.comment))
         if given.points or given.comment:
             rows += [
@@ -155,16 +159,6 @@ class Review:
         if path.exists() and not kept.exists():
             write_whole(kept, path.read_bytes())
         write_whole(path, _csv([_COLUMNS, *rows]))
-
-    def _place(self, line: Line) -> tuple[str, tuple[str, str]]:
-        """Return a learner's name, and whom and what a line is about; empty for nobody."""
-        exercise = line.exercise.strip("' ").casefold()
-        exercise = exercise if exercise in EXERCISES else f"0{exercise}"  # 3a and 03a
-        try:
-            found = self._lookup.find(line.learner)
-        except UnusableError:
-            return "", ("", exercise)
-        return found.name, (found.learner, exercise)
 
     def regrade(self) -> None:
         """Write all results anew, with what was given by hand.
