@@ -71,13 +71,6 @@ def test_what_an_answer_needs_of_earlier_cells_is_the_learners_first_then_the_co
     assert set(one.job.earlier) == {"FIRST = 7", "import rclpy"}
 
 
-@pytest.mark.parametrize("above", ["%matplotlib inline\n!ls\nPERIOD = 2.0", "%%time\nPERIOD = 2.0"])
-def test_magics_of_an_earlier_cell_cost_nothing(answers, above):
-    made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
-    (one,) = answers(cell(above), made)
-    assert one.job.earlier == ("PERIOD = 2.0",)
-
-
 def test_what_an_answer_needs_of_another_cell_is_remarked_too(answers):
     made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
     (plain,) = answers(cell("PERIOD = 1.0"), made)
@@ -98,12 +91,6 @@ def test_the_whole_course_has_a_job_for_each_exercise(course):
             assert one.job.subject != "None"
             is_typed = number in ("01", "02", "05", "06")
             assert bool(one.job.replay) == is_typed
-
-
-def test_a_blank_page_of_the_course_has_no_job(course):
-    for page_of_course in course.values():
-        found = answers_on(page_of_course, page_of_course.cells)
-        assert {(one.job, one.repairs) for one in found} <= {(None, ())}
 
 
 def test_an_exercise_of_several_cells_is_one_answer(course):

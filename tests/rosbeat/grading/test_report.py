@@ -89,15 +89,6 @@ def test_every_learner_has_points_and_a_link_to_the_feedback():
     assert f"Ünal & 0 0000 {number(one.points)} ? {number(one.out_of)} 1 Ünal & 1 0001" in text
 
 
-@pytest.mark.parametrize(
-    "said", ["Its cell is not on the page.", "A cell of it is not on the page."]
-)
-def test_what_was_not_found_is_not_among_what_was(said):
-    one = replace(one_of_each(), marks=(mark("04a", "not attempted", repairs=(said,)),))
-    text = text_of(class_report(Gradebook("1", (one,))))
-    assert f"not where they belong Learner Exercise What was found Ana Muster 04a {said}" in text
-
-
 # Counting.
 
 
