@@ -9,7 +9,7 @@ import os
 import sys
 import time
 
-from rosbeat.grading.jobs import Evidence, read_job, to_line
+from rosbeat.grading.jobs import Evidence, Job, read_line, to_line
 
 NOTES = "ROSBEAT_FAKE_WORKER"
 _REFUSED = '{"refused": ["No sandbox.", "Nothing was run.", "Try this."]}'
@@ -50,7 +50,7 @@ def main():
         sys.exit(1)
     for line in sys.stdin:
         for one in json.loads(line):
-            print(answer(read_job(one)), flush=True)
+            print(answer(read_line(Job, one)), flush=True)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import json
 
 from bank.pages import ROOT
-from rosbeat.grading.course_pages import course_pages
+from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.submissions import collect
 
 

@@ -81,14 +81,11 @@ from rclpy.executors import ExternalShutdownException
 MAGICS = (
     Style("%%time", "%%time"),
     Style("%%capture", "%%capture"),
-    Style("%%timeit once", "%%timeit -n1 -r1"),
     Style("%matplotlib inline", "%matplotlib inline\nimport matplotlib.pyplot as plt",
           left_out=True),
     Style("!ls", "!ls -la", left_out=True),
     Style("!ls over two lines", "!ls \\\n    -la", left_out=True),
     Style("files = !ls", "files = !ls\nprint(files)", left_out=True),
-    Style("%pip", "%pip install --quiet numpy", left_out=True),
-    Style("!ros2", below="!ros2 topic list", left_out=True),
     Style("help", below="Node?", left_out=True),
     Style("%timeit on a line", "%timeit -n 2 -r 1 sum(range(10))"),
     Style("%time on a line", "%time total = sum(range(10))\nprint(total)"),
@@ -112,7 +109,6 @@ MAGICS = (
 
 IMPORTS = (
     Style("signal", "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)"),
-    Style("os and sys", "import os, sys\nprint(os.getcwd(), sys.version, os.getpid(), sys.argv)"),
     Style("the home", "import os\nfrom pathlib import Path\nprint(Path.home(), Path.cwd())\n"
           "print(os.path.expanduser('~/ros2_ws'), os.environ.get('ROS_DISTRO', 'none'))"),
     Style("threading", """
@@ -124,98 +120,22 @@ IMPORTS = (
         """),
     Style("a pool", "from concurrent.futures import ThreadPoolExecutor\n"
           "with ThreadPoolExecutor(2) as pool:\n    print(list(pool.map(abs, [-1, 2])))"),
-    Style("asyncio", "import asyncio\n\nasync def nothing():\n    await asyncio.sleep(0)\n\n"
-          "asyncio.run(nothing())"),
-    Style("numpy", "import numpy as np\nrng = np.random.default_rng(3)\nprint(rng.normal(size=3))"),
-    Style("matplotlib", "import matplotlib\nmatplotlib.use('Agg')\nimport matplotlib.pyplot as plt",
-          "plt.plot([1, 2, 3])\nplt.close('all')"),
     Style("a program", "import subprocess\nprint(subprocess.run(['echo', 'hello'], check=True,\n"
           "                     capture_output=True, text=True).stdout)"),
-    Style("doctest", """
-        import doctest
-
-        def double(x):
-            \"\"\"
-            >>> double(2)
-            4
-            \"\"\"
-            return 2 * x
-
-        doctest.testmod()
-        """),
-    Style("warnings", "import warnings\nwarnings.warn('nearly done')\nPATTERN = '\\d+'"),
     Style("from the future", "from __future__ import annotations"),
-    Style("all of rclpy", "import rclpy\nimport rclpy.node as rn\nfrom rclpy.qos import *\n"
-          "from std_msgs.msg import *"),
-    Style("standard output", "import sys\nsys.stdout.write('hello\\n')\nsys.stdout.flush()\n"
-          "print('error', file=sys.stderr)"),
-    Style("redirected", "import contextlib, io\nwith contextlib.redirect_stdout(io.StringIO()):\n"
-          "    print('hidden')"),
 )  # fmt: skip
 
 CLASSES = (
-    Style("slots", members="__slots__ = ('extra',)"),
-    Style("a cached property", "from functools import cached_property, lru_cache, partial, wraps",
-          members="""
-        @cached_property
-        def limits(self):
-            return (1.0, 2.0)
-
-        @staticmethod
-        @lru_cache(maxsize=None)
-        def square(x):
-            return x * x
-
-        @classmethod
-        def make(cls, *args, **options):
-            return cls(*args, **options)
-        """),
-    Style("attributes of a class", "from typing import ClassVar",
-          members="RATE: ClassVar[float] = 2.0\nknown: dict = {}\nsignal = watcher = recorder = 1"),
-    Style("a dataclass beside", """
-        from dataclasses import dataclass, field
-        from enum import Enum, auto
-        from typing import NamedTuple
-
-        @dataclass(frozen=True)
-        class Settings:
-            rate: float = 2.0
-            names: list = field(default_factory=list)
-
-        class Mode(Enum):
-            DAY = auto()
-            NIGHT = auto()
-
-        class Point(NamedTuple):
-            x: float = 0.0
-        """),
-    Style("a decorator", """
-        def registered(cls):
-            registry.append(cls)
-            return cls
-
-        registry = []
-        """, change=_each_class(r"^class ", "@registered\nclass ")),
     Style("a metaclass", """
         class Meta(type(Node)):
             def __new__(mcs, name, bases, space, **more):
                 return super().__new__(mcs, name, bases, space)
         """, change=_each_class(r"\(Node\):", "(Node, metaclass=Meta):")),
-    Style("a base of one's own", "class Base(Node):\n    pass",
-          change=_each_class(r"\(Node\):", "(Base):")),
-    Style("super with arguments", change=lambda text: re.sub(
-        r"(?m)^class (\w+)\(Node\):(.*?)super\(\)", r"class \1(Node):\2super(\1, self)", text,
-        flags=re.DOTALL) if text.count("class ") == 1 else text),
-    Style("Node.__init__", change=_each_class(r"super\(\).__init__\((?=[\"'])",
-                                              "Node.__init__(self, ")),
     Style("another name", change=_named_below("Another = NAME\nassert Another is NAME")),
     Style("in a block", change=lambda text: f"if True:\n{indent(text, '    ')}"),
     Style("written twice", change=lambda text: f"{text}\n\n{text}"),
-    Style("a generator", "import itertools\n\ndef ticks():\n    n = 0\n    while True:\n"
-          "        yield n\n        n += 1\n\nprint(list(itertools.islice(ticks(), 3)))"),
     Style("globals", "globals()['PERIOD'] = 0.5\nassert 'PERIOD' in globals()",
           "print(sorted(name for name in dir() if name.isupper()))"),
-    Style("exec and eval", "exec('seven = 7')\nassert eval('seven + 1') == 8"),
 )  # fmt: skip
 
 TEXTS = (
@@ -225,22 +145,10 @@ TEXTS = (
     Style("windows line ends", change=lambda text: text.replace("\n", "\r\n")),
     Style("tabs", change=lambda text: re.sub(
         r"(?m)^( {4})+", lambda found: "\t" * (len(found[0]) // 4), text)),
-    Style("blanks at line ends", change=lambda text: text.replace("\n", "   \n") + "\n\n\n"),
-    Style("a last expression", below="42"),
     Style("a string of several lines", 'NOTES = """\n!ls\n%%time\n?\n%matplotlib inline\n"""'),
     Style("a remainder", "x = (7\n     % 4)\ny = 7 \\\n    % 4\nassert not (x\n    != y)"),
-    Style("a progress bar", "import sys\nfor n in range(20):\n    sys.stdout.write(f'\\r{n} %')"),
     Style("half a pair", "HALF = '\\ud83d'\nprint(ascii(HALF))"),
     Style("a main", _SIGNALS, change=_named_below(_MAIN)),
-    Style("a main with signals", _SIGNALS, change=_named_below("""
-        def main(args=None):
-            signal.signal(signal.SIGTERM, signal.default_int_handler)
-            try:
-                with rclpy.init(args=args):
-                    rclpy.spin(NAME())
-            except (KeyboardInterrupt, ExternalShutdownException):
-                pass
-        """)),
 )  # fmt: skip
 
 NAMES = (
@@ -309,60 +217,6 @@ _written(
     """,
 )
 _written(
-    "an enum and a match",
-    "04a",
-    """
-    from enum import Enum
-
-    class State(Enum):
-        WARM = "Warm"
-        FROST = "Frost"
-        FINE = "Fine"
-
-        @classmethod
-        def of(cls, temp):
-            match temp:
-                case t if t > 8.0:
-                    return cls.WARM
-                case t if t < 2.0:
-                    return cls.FROST
-                case _:
-                    return cls.FINE
-
-    class FridgeMonitor(Node):
-        def __init__(self):
-            super().__init__("fridge_monitor")
-            self.create_subscription(Float32, "temperature", self.hear, 10)
-
-        def hear(self, msg):
-            state = State.of(msg.data)
-            self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{state.value}")
-    """,
-)
-_written(
-    "a decorator that logs",
-    "04a",
-    """
-    import functools
-
-    def logged(method):
-        @functools.wraps(method)
-        def wrapper(self, *args, **options):
-            self.get_logger().info(method(self, *args, **options))
-        return wrapper
-
-    class FridgeMonitor(Node):
-        def __init__(self):
-            super().__init__("fridge_monitor")
-            self.create_subscription(Float32, "temperature", self.hear, 10)
-
-        @logged
-        def hear(self, msg):
-            word = {True: "Warm"}.get(msg.data > 8.0) or {True: "Frost"}.get(msg.data < 2.0)
-            return f"Fridge: {msg.data:.2f}C - Status:{word or 'Fine'}"
-    """,
-)
-_written(
     "an async callback",
     "04a",
     """
@@ -374,37 +228,6 @@ _written(
         async def hear(self, msg):
             status = "Warm" if msg.data > 8.0 else "Frost" if msg.data < 2.0 else "Fine"
             self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{status}")
-    """,
-)
-_written(
-    "a deque and statistics",
-    "04e",
-    """
-    import statistics
-    from collections import deque
-
-    class CalmMonitor(Node):
-        def __init__(self):
-            super().__init__("calm_monitor")
-            self.last = deque(maxlen=5)
-            self.status = "Normal"
-            self.means = self.create_publisher(Float32, "mean", 10)
-            self.words = self.create_publisher(String, "status", 10)
-            self.create_subscription(Float32, "temperature", self.hear, 10)
-
-        def hear(self, msg):
-            self.last.append(msg.data)
-            self.means.publish(Float32(data=statistics.fmean(self.last)))
-            before, self.status = self.status, self.after(msg.data)
-            if before != self.status:
-                self.words.publish(String(data=self.status))
-
-        def after(self, x):
-            if x > 26.0 or (self.status == "High" and x >= 25.0):
-                return "High"
-            if x < 20.0 or (self.status == "Low" and x <= 21.0):
-                return "Low"
-            return "Normal"
     """,
 )
 _written(

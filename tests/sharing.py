@@ -2,8 +2,8 @@
 
 import json
 
+from rosbeat.grading.class_board import ClassServer
 from rosbeat.grading.class_folder import ClassFolder
-from rosbeat.grading.class_page import ClassServer
 from serving import serving
 
 NOW = 1_800_000_000

@@ -11,8 +11,8 @@ from bank.reading import Answer, answers
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import Answer as HandedIn
 from rosbeat.grading.answers import answers_on
-from rosbeat.grading.course_pages import CoursePage, course_pages
 from rosbeat.grading.judging import judge, untouched
+from rosbeat.grading.notebook import CoursePage, course_pages
 from rosbeat.grading.run import Pool
 from rosbeat.records import Outcome
 

@@ -143,7 +143,7 @@ UPLOADS = (
     Upload("no JSON", {PAGE: b"this is no notebook"}, "held", "not a notebook"),
     Upload("JSON that is no notebook", {PAGE: b"[1, 2, 3]"}, "held", "not a notebook"),
     Upload("empty", {PAGE: b""}, "held", "empty"),
-    Upload("broken off", {PAGE: _WHOLE[: len(_WHOLE) * 3 // 4]}, "passed", "not whole"),
+    Upload("broken off", {PAGE: _WHOLE[: len(_WHOLE) * 3 // 4]}, "held", "not whole"),
     Upload("NUL bytes", {PAGE: bytes(5_000)}, "held", "empty"),
     Upload("random bytes", {PAGE: bytes(range(256)) * 40}, "held", "not a notebook"),
     Upload("UTF-16", {PAGE: _WHOLE.decode().encode("utf-16")}, ""),

@@ -13,13 +13,11 @@ import pytest
 from hostile.deed import CANARY, TRACE
 from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large
 from hostile.pages import ROOT
-from rosbeat.grading.course_pages import course_pages
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.marks import settle
-from rosbeat.grading.remarks import REACHES_INSIDE
+from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.results import write_results
 from rosbeat.grading.run import Plan, Pool, grade
-from rosbeat.grading.submissions import collect
+from rosbeat.grading.submissions import REACHES_INSIDE, collect
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(600), pytest.mark.xdist_group("hostile")]
 PAGES = {
@@ -63,7 +61,7 @@ def _graded(folder, out, see=lambda _: None):
 
     with Ledger(out / "judged.jsonl") as ledger:
         found = collect(folder, plan.pages)
-        gradebook = settle(grade(found, plan, ledger, observe, lambda *_: None), found)
+        gradebook = grade(found, plan, ledger, observe, lambda *_: None)
     write_results(out, gradebook)
     return gradebook
 

@@ -15,7 +15,6 @@ from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
 from std_srvs.srv import Trigger
 
-from digests import digest
 from rosbeat import Session
 from rosbeat.errors import NodeConstructionError, SessionError
 from rosbeat.ros.scenario import observe

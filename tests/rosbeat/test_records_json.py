@@ -2,6 +2,8 @@
 
 import collections.abc
 import json
+import subprocess
+import sys
 from dataclasses import asdict, fields
 from math import inf, nan
 from pathlib import Path
@@ -159,3 +161,26 @@ def test_another_format_or_version_is_refused(head, said, says):
 def test_indented_json_is_that_of_python(text):
     said = Part("R1", text, True)
     assert to_json({"parts": [said]}, indent=1) == json.dumps({"parts": [asdict(said)]}, indent=1)
+
+
+RACE = """
+import sys, threading
+from rosbeat.records import Observation
+from rosbeat.records_json import from_json, to_json
+sys.setswitchinterval(1e-6)
+text, together = to_json(Observation(0, 0)), threading.Barrier(4)
+
+def read():
+    together.wait()
+    from_json(Observation, text, "it")
+
+threads = [threading.Thread(target=read) for _ in range(4)]
+for one in threads:
+    one.start()
+for one in threads:
+    one.join()
+"""
+
+
+def test_threads_may_read_a_class_for_the_first_time_at_once():
+    subprocess.run([sys.executable, "-c", RACE], check=True)

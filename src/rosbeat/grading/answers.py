@@ -18,9 +18,8 @@ from functools import lru_cache
 
 from rosbeat.exercises.exercise import BLANK
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.course_pages import CoursePage, Wanted
 from rosbeat.grading.jobs import Job
-from rosbeat.grading.notebook import Cell
+from rosbeat.grading.notebook import Cell, CoursePage, Wanted
 
 #: What is said of an answer that is nowhere, and of one of which a part is.
 NOT_THERE, PART_NOT_THERE = "Its cell is not on the page.", "A cell of it is not on the page."
@@ -39,31 +38,22 @@ class Answer:
         job: What has to be observed; None if its cell is as it is on the course's page, or lost.
         repairs: What was done to find and to run the answer, a sentence each.
         remarks: What an instructor should know of it, a sentence each; see `remarks_on`.
-        cut: Whether the file breaks off before its cell.
     """
 
     exercise: str
     job: Job | None
     repairs: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
-    cut: bool = False
     source: str = ""
 
 
-def answers_on(
-    page: CoursePage, cells: Sequence[Cell], cut: bool = False, seed: int = 0
-) -> tuple[Answer, ...]:
+def answers_on(page: CoursePage, cells: Sequence[Cell], seed: int = 0) -> tuple[Answer, ...]:
     """Find the answers on a page that was handed in."""
     found = find_cells(page.wanted, cells)
     parts: dict[str, list[tuple[Wanted, Found]]] = {}
     for wanted, one in zip(page.wanted, found, strict=True):
         parts.setdefault(wanted.exercise, []).append((wanted, one))
-    return tuple(
-        Answer(some[0][0].exercise, None, cut=True)
-        if cut and any(_is_lost(page, *one, cells) for one in some)
-        else _answer(page, some, cells, seed)
-        for some in parts.values()
-    )
+    return tuple(_answer(page, some, cells, seed) for some in parts.values())
 
 
 def _answer(
@@ -177,59 +167,41 @@ def find_cells(wanted: Sequence[Wanted], cells: Sequence[Cell]) -> tuple[Found, 
         others = {other.id for other in wanted if other is not one}
         free = [cell for cell in cells if cell.place not in taken and cell.id not in others]
         shared = any(other.exercise == one.exercise for other in wanted if other is not one)
-        found = _find_part(one, free) if shared else _find(one, free)
+        found = _find(one, free, shared)
         taken.add(found.place)
         answers.append(found)
     return tuple(answers)
 
 
-def _is_lost(page: CoursePage, wanted: Wanted, found: Found, cells: Sequence[Cell]) -> bool:
-    """Return whether a cell has to be taken for lost, on a page of a file that breaks off.
+def _find(wanted: Wanted, cells: Sequence[Cell], is_part: bool) -> Found:
+    """Find a cell by its id, else by its exercise, else by what it defines.
 
-    It is lost if neither its id nor its exercise is on the page, and nothing that comes behind it
-    on the course's page either. A cell that is merely alike may be any other.
+    Args:
+        wanted: The cell of the course's page.
+        cells: The cells that were handed in and may be it.
+        is_part: Whether the exercise has several cells: then its name does not say which it is.
     """
-    ids = {cell.id for cell in cells if cell.id}
-    if wanted.id in ids or any(cell.exercise == wanted.exercise for cell in cells):
-        return False
-    order = [cell.id for cell in page.cells]
-    behind: Set[str] = set(order[order.index(wanted.id) + 1 :])
-    return not ids & behind and (found.place < 0 or bool(ids))
-
-
-def _find(wanted: Wanted, cells: Sequence[Cell]) -> Found:
     by_id = [cell for cell in cells if cell.id and cell.id == wanted.id]
     by_name = [cell for cell in cells if cell.exercise == wanted.exercise]
+    if is_part:
+        by_name = _alike(wanted, by_name) or _alike(wanted, cells) or by_name[:1]
     if by_id:
-        return _chosen(wanted, _unique([*by_id, *by_name]), "")
+        return _chosen(wanted, by_id if is_part else [*by_id, *by_name], "")
     if by_name:
-        return _chosen(wanted, by_name, "Its cell has another id than on the course's page.")
+        which = "A cell of it" if is_part else "Its cell"
+        return _chosen(wanted, by_name, f"{which} has another id than on the course's page.")
     if alike := _alike(wanted, cells):
-        return _chosen(
-            wanted, alike, "Its cell has lost its name and was found by what it defines."
-        )
-    return Found(wanted.exercise, repairs=(NOT_THERE,))
+        said = "Its cell has lost its name and was found by what it defines."
+        return _chosen(wanted, alike, said)
+    return Found(wanted.exercise, repairs=(PART_NOT_THERE if is_part else NOT_THERE,))
 
 
-def _find_part(wanted: Wanted, cells: Sequence[Cell]) -> Found:
-    """Find one of several cells of the same exercise: its name alone does not say which."""
-    by_name = [cell for cell in cells if cell.exercise == wanted.exercise]
-    if by_id := [cell for cell in cells if cell.id and cell.id == wanted.id]:
-        return _chosen(wanted, by_id, "")
-    if alike := _alike(wanted, by_name) or _alike(wanted, cells) or by_name[:1]:
-        return _chosen(wanted, alike, "A cell of it has another id than on the course's page.")
-    return Found(wanted.exercise, repairs=(PART_NOT_THERE,))
-
-
-def _unique(cells: Sequence[Cell]) -> list[Cell]:
-    return sorted({cell.place: cell for cell in cells}.values(), key=lambda cell: cell.place)
-
-
-def _chosen(wanted: Wanted, cells: Sequence[Cell], said: str) -> Found:
+def _chosen(wanted: Wanted, found: Sequence[Cell], said: str) -> Found:
     """Choose the last cell in which something was tried, and the last one if nothing was."""
+    cells = sorted({cell.place: cell for cell in found}.values(), key=lambda cell: cell.place)
     repairs = [said] if said else []
     tried = [cell for cell in cells if BLANK not in cell.source and cell.source.strip()]
-    cell = (tried or list(cells))[-1]
+    cell = (tried or cells)[-1]
     if len(cells) > 1:
         repairs.append(f"Its cell is there {len(cells)} times; the last one that is filled counts.")
     if cell.sort != "code":

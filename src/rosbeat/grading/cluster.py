@@ -17,9 +17,9 @@ from itertools import islice
 from typing import Any, TypeVar
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.jobs import LOST, Evidence, Job, read_evidence, read_job, to_line
+from rosbeat.grading.files import printable
+from rosbeat.grading.jobs import LOST, Evidence, Job, read_line, to_line
 from rosbeat.grading.ledger import course_version
-from rosbeat.grading.remarks import printable
 from rosbeat.grading.run import Pool
 
 try:
@@ -74,7 +74,8 @@ class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]
         if self._version != version:
             raise another_course(f"{self._version}, not {version}")
         assert self._pool is not None
-        found = dict(self._pool.observe([list(enumerate(map(read_job, lines)))]))
+        jobs = [read_line(Job, line) for line in lines]
+        found = dict(self._pool.observe([list(enumerate(jobs))]))
         return [to_line(found[number]) for number in range(len(lines))]
 
 
@@ -208,7 +209,7 @@ class Cluster:
             raise self._gone(error) from error
         if isinstance(found, str):
             raise GradingError(*json.loads(found))
-        return [read_evidence(line) for line in found]
+        return [read_line(Evidence, line) for line in found]
 
     def _nobody(self) -> GradingError:
         return GradingError(

@@ -11,6 +11,7 @@ import shlex
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from io import StringIO
@@ -18,37 +19,40 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 from rich.text import Text
 
 from rosbeat.errors import CommandError, GradingError, RecordError, StoppedError
-from rosbeat.grading.course_pages import CoursePage, course_pages
 from rosbeat.grading.deadlines import mark_late, read_due, read_late_rule
+from rosbeat.grading.files import printable, write_whole
 from rosbeat.grading.jobs import Evidence, Job
 from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version, seed_of
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import apply_manual, read_manual
-from rosbeat.grading.marks import HELD, Gradebook, settle
-from rosbeat.grading.notebook import Cell, read_notebook
-from rosbeat.grading.options import DEFAULT_ASSIGNMENT
-from rosbeat.grading.progress_bar import progress_bar
+from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
+from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
 from rosbeat.grading.release import Released, catches_up, release
-from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.results import previous_results, require_folder, summary, write_results
+from rosbeat.grading.results import summary, write_results
 from rosbeat.grading.review import review
 from rosbeat.grading.roster import read_roster, with_roster
-from rosbeat.grading.run import Observe, Plan, Pool, grade
+from rosbeat.grading.run import Observe, Plan, Pool, Tell, grade
 from rosbeat.grading.submissions import (
     Collection,
     HandedIn,
+    Remark,
     Submission,
     collect,
     require_apart,
     require_submissions,
 )
-from rosbeat.grading.weights import Points, read_points, without_effect
-from rosbeat.grading.writing import write_whole
 from rosbeat.records_json import from_json, to_json
 from rosbeat.viz.words import count
 from rosbeat.workspace.place import course_root
@@ -158,7 +162,7 @@ def run_collect(options: argparse.Namespace) -> int:
     pages = course_pages(find_checkout() / "notebooks")
     asked = choose_pages(pages, options.lessons)
     found = collect(options.submissions, pages)
-    require_submissions(options.submissions, found, is_known=True)
+    require_submissions(options.submissions, found)
     found = _with_dates(found, options.roster, options.due)
     if not options.lessons:
         asked = handed_in(found, pages)
@@ -224,8 +228,6 @@ def _cell(page: HandedIn | None) -> str:
     words = ["late"] if page.late else []
     if page.notebook.problem:
         words.append("unreadable")
-    elif page.notebook.cut:
-        words.append("half")
     return ", ".join(words) or "yes"
 
 
@@ -257,7 +259,6 @@ def _page(page: HandedIn) -> dict[str, Any]:
     return {
         **{"page": page.page, "path": page.path, "late": page.late, "modified": page.modified},
         **{"cells": len(page.notebook.cells), "problem": page.notebook.problem},
-        "repairs": list(page.notebook.repairs),
     }
 
 
@@ -284,7 +285,6 @@ def run_grade(options: argparse.Namespace) -> int:
         StoppedError: If a person stops it.
     """
     _require_consistent(options)
-    require_folder(options.out)
     require_apart(options.submissions, options.out)
     every = course_pages(find_checkout() / "notebooks")
     pages = choose_pages(every, options.lessons)
@@ -293,17 +293,17 @@ def run_grade(options: argparse.Namespace) -> int:
     manual = read_manual(options.out / MANUAL)
     # With all pages: what is another page must not be taken for one of those that count.
     found = collect(options.submissions, every)
-    require_submissions(options.submissions, found, bool(options.lessons))
+    require_submissions(options.submissions, found)
     found = _with_dates(found, options.roster, options.due, options.late)
     pages = pages if options.lessons else handed_in(found, pages)
     pages = tuple(page for page in pages if page.wanted)
-    useless = without_effect(points, [page.number for page in pages])
-    for line in (changes(options.out, typed), useless, _UNSAFE * options.unsafe_no_sandbox):
+    for line in (changes(options.out, typed), _UNSAFE * options.unsafe_no_sandbox):
         if line:
             print(line, file=sys.stderr)
-    plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages))
-    judged = settle(_judged(found, plan, options), found, options.missing == "empty")
-    gradebook = apply_manual(judged, manual, previous_results(options.out))
+    excuses = options.missing == "empty"
+    plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages), excuses)
+    judged = _judged(found, plan, options)
+    gradebook = apply_manual(judged, manual)
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)
     code = WAITS if _waiting(gradebook) else 0
@@ -344,23 +344,39 @@ def _require_consistent(options: argparse.Namespace) -> None:
 
 def _judged(found: Collection, plan: Plan, options: argparse.Namespace) -> Gradebook:
     far = [0, 0]
-    with Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
-
-        def told(done: int, total: int) -> None:
-            far[:] = done, total
-            tell(done, total)
-
+    with Ledger(options.out / LEDGER) as ledger, _progress(far) as tell:
         try:
-            return grade(found, plan, ledger, _observer(options), told)
+            return grade(found, plan, ledger, _observer(options), tell)
         except KeyboardInterrupt:
             kept = f"{far[0] or 'None'} of {far[1]} answers are judged and kept"
+            means = f"{kept}; the results are as they were before."
             raise StoppedError(
                 "stopped.",
-                f"{kept}; the results are as they were before."
-                if far[1]
-                else "Nothing was judged.",
+                means if far[1] else "Nothing was judged.",
                 "Type the same command again, with the same options: it goes on from there.",
             ) from None
+
+
+@contextmanager
+def _progress(far: list[int]) -> Iterator[Tell]:
+    """Show how many answers are to be judged, and on a terminal a bar with the time that is left.
+
+    Args:
+        far: Gets how many are judged, of how many.
+    """
+    console = Console(stderr=True, highlight=False)
+    columns = (TextColumn("judging"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal) as shown:
+        task = shown.add_task("", visible=False)
+
+        def tell(done: int, total: int) -> None:
+            if done < total and not far[1]:
+                earlier = f", {done} of them judged already" if done else ""
+                console.print(f"{count(total, 'different answer')}{earlier}.")
+            far[:] = done, total
+            shown.update(task, completed=done, total=total, visible=True)
+
+        yield tell
 
 
 def _observer(options: argparse.Namespace) -> Observe:
@@ -429,7 +445,7 @@ def _deciding(options: argparse.Namespace, pages: Iterable[CoursePage]) -> dict[
     found = {
         **{"lessons": lessons, "points": options.points, "due": options.due, "late": options.late},
         **{"roster": options.roster, "missing": options.missing.replace("zero", "")},
-        "assignment": options.assignment if options.assignment != DEFAULT_ASSIGNMENT else "",
+        "assignment": "" if options.assignment == "rosbeat" else options.assignment,
     }
     return {name: str(value) for name, value in found.items() if value}
 
@@ -448,15 +464,12 @@ def changes(out: Path, typed: Typed) -> str:
     """Say in one line which options differ from those of the last time.
 
     Returns:
-        The line; empty if all is the same or there was no last time.
+        The line; empty if all is the same, or it is not known how the last time was.
     """
     try:
         before = from_json(_LastRun, (out / LAST_RUN).read_bytes(), "options").options
-    except FileNotFoundError:
-        return ""
     except (OSError, RecordError):
-        place = printable(str(out / LAST_RUN), 1000)
-        return f"{place} cannot be read, so it is not known how you graded the last time."
+        return ""
     differ = [name for name in sorted({*before, *typed}) if before.get(name) != typed.get(name)]
     if not differ:
         return ""

@@ -9,8 +9,8 @@ from datetime import datetime, time, timedelta
 from math import ceil, inf
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.submissions import Collection, HandedIn, Submission
+from rosbeat.grading.files import printable
+from rosbeat.grading.submissions import Collection, HandedIn, Remark, Submission
 
 _DAY, _HOUR = 86_400.0, 3_600.0
 
@@ -162,16 +162,7 @@ def _page(
 
 
 def _lateness(modified: float, late_by: float) -> str:
-    try:
-        date = f"{datetime.fromtimestamp(modified):%Y-%m-%d %H:%M}"
-    except (ValueError, OverflowError, OSError):
-        return "The date of the file, far in the future, is after the deadline."
-    return f"The date of the file, {date}, is {_duration(late_by)} after the deadline."
-
-
-def _duration(seconds: float) -> str:
-    days, hours = int(seconds // _DAY), int(seconds % _DAY // _HOUR)
-    if not days and not hours:
-        return f"{ceil(seconds / 60)} min"
-    told = [f"{days} day{'s' if days > 1 else ''}"] if days else []
-    return " ".join([*told, f"{hours} h"] if hours else told)
+    days, hours = int(late_by // _DAY), int(late_by % _DAY // _HOUR)
+    told = f"{days} d {hours} h" if days or hours else f"{ceil(late_by / 60)} min"
+    date = f"{datetime.fromtimestamp(modified):%Y-%m-%d %H:%M}"
+    return f"The date of the file, {date}, is {told} after the deadline."

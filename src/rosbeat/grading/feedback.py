@@ -28,8 +28,8 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.cards import RIGHT, WRONG
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
+from rosbeat.grading.files import file_name
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
-from rosbeat.grading.remarks import REACHES_INSIDE, Remark
 from rosbeat.grading.rendering import (
     html,
     look_of,
@@ -43,16 +43,11 @@ from rosbeat.grading.rendering import (
     so_far,
     visible,
 )
-from rosbeat.grading.submissions import own_path, owner_of
+from rosbeat.grading.submissions import REACHES_INSIDE, own_path, owner_of
 from rosbeat.grading.traces import Picture, picture
-from rosbeat.grading.writing import file_names
 
 #: The folder of all such pages.
 FOLDER = "feedback"
-#: What an exercise without points waits for, by whether that is its file.
-_WAITS = {False: "waits for your instructor", True: "waits for the whole file"}
-#: What remarks are about that only an instructor reads.
-_FOR_INSTRUCTORS = frozenset({REACHES_INSIDE})
 _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 
 
@@ -67,8 +62,11 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         "learner.html",
         graded=graded,
         pages=[(page, list(marks)) for page, marks in groupby(graded.marks, lambda one: one.page)],
-        files=[(name(own_path(one.path)), one.text) for one in told_to(graded)],
-        word_of=_word_of,
+        files=[
+            (name(own_path(one.path)), one.text)
+            for one in graded.remarks
+            if one.about != REACHES_INSIDE  # that is for the instructor only
+        ],
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
         code_of=_code_to_show,
@@ -80,19 +78,9 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
     )
 
 
-def told_to(graded: Graded) -> list[Remark]:
-    """Return the remarks about a learner's files that the learner reads, too."""
-    return [one for one in graded.remarks if one.about not in _FOR_INSTRUCTORS]
-
-
 def feedback_files(book: Gradebook) -> dict[str, str]:
     """Return the file names of a class's pages, by learner."""
-    names = file_names((one.learner, one.name) for one in book.learners)
-    return {learner: f"{file}.html" for learner, file in names.items()}
-
-
-def _word_of(mark: Mark) -> str:
-    return _WAITS[mark.waits_for_its_file] if mark.status == HELD else look_of(mark.status).word
+    return {one.learner: f"{file_name(one.learner, one.name)}.html" for one in book.learners}
 
 
 def _details(mark: Mark) -> Iterator[tuple[str, str]]:
@@ -254,10 +242,9 @@ def _cell(kind: str, source: str) -> dict[str, Any]:
 
 def _in_short(mark: Mark) -> Iterator[Markup]:
     """Yield what was found as blocks of HTML, which Markdown leaves as they are."""
-    reached = "no points yet" if mark.status == HELD else points_of(mark.points, mark.out_of)
-    sign = look_of(mark.status).sign
-    head = "<h2>{} {} {}: {}, {}</h2>"
-    yield html(head, sign, mark.exercise, mark.title, _word_of(mark), reached)
+    reached = "" if mark.status == HELD else f", {points_of(mark.points, mark.out_of)}"
+    look, head = look_of(mark.status), "<h2>{} {} {}: {}{}</h2>"
+    yield html(head, look.sign, mark.exercise, mark.title, look.word, reached)
     if mark.status != LOOKED_AT:
         yield _block(mark.evidence or mark.cause)
     for part in mark.parts:

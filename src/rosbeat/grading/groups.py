@@ -18,22 +18,8 @@ from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, M
 
 #: The order in which a person looks at groups.
 _ORDER = (HELD, FAILED, LOOKED_AT, NOT_ATTEMPTED, PASSED)
-#: What a group has to do with the published solution.
-EQUAL = "equal to the published solution but for layout"
-NEARLY = "equal to the published solution but for names and layout"
-
-
-@dataclass(frozen=True)
-class Shape:
-    """Hold what two answers are compared by.
-
-    Attributes:
-        text: A digest of the program, whatever its layout, comments and docstrings.
-        idea: A digest of the program with its own names replaced by numbers as well.
-    """
-
-    text: str
-    idea: str
+#: What is said of a group whose answers are the published solution.
+EQUAL = "equal to the published solution but for names and layout"
 
 
 @dataclass(frozen=True)
@@ -42,7 +28,7 @@ class Group:
 
     Attributes:
         members: Whose they are, and their marks.
-        solution: What they have to do with the published solution: `EQUAL`, `NEARLY` or empty.
+        solution: `EQUAL` if they are the published solution; or empty.
     """
 
     exercise: str
@@ -56,17 +42,18 @@ class Group:
 
 
 @lru_cache(maxsize=20_000)
-def shape_of(source: str) -> Shape:
-    """Return what an answer is compared by; what is no Python is compared by its words."""
+def shape_of(source: str) -> str:
+    """Return a digest of a program, whatever its layout, comments, docstrings and own names.
+
+    What is no Python is compared by its words.
+    """
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of escapes in a learner's text
             tree = _without_docstrings(ast.parse(source))
-        text = ast.dump(tree)
-        return Shape(_digest(text), _digest(ast.dump(_Renaming(tree).visit(tree))))
+        return _digest(ast.dump(_Renaming(tree).visit(tree)))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        words = _digest(" ".join(source.split()))
-        return Shape(words, words)
+        return _digest(" ".join(source.split()))
 
 
 def _digest(text: str) -> str:
@@ -161,7 +148,7 @@ def groups_of(book: Gradebook) -> tuple[Group, ...]:
     exercises: dict[str, int] = {}
     for graded, mark in _answers(book):
         exercises.setdefault(mark.exercise, len(exercises))
-        key = (mark.exercise, shape_of(mark.source).idea, mark.status, mark.mistake)
+        key = (mark.exercise, shape_of(mark.source), mark.status, mark.mistake)
         found.setdefault(key, []).append((graded, mark))
     groups = (_group(members, solutions) for members in found.values())
     return tuple(sorted(groups, key=lambda one: (exercises[one.exercise], *_rank(one))))
@@ -172,14 +159,11 @@ def _answers(book: Gradebook) -> Iterator[tuple[Graded, Mark]]:
         yield from ((graded, mark) for mark in graded.marks if mark.status != MISSING)
 
 
-def _group(members: Iterable[tuple[Graded, Mark]], solutions: dict[str, Shape]) -> Group:
+def _group(members: Iterable[tuple[Graded, Mark]], solutions: dict[str, str]) -> Group:
     members = tuple(members)
     mark = members[0][1]
-    shape, right = shape_of(mark.source), solutions.get(mark.exercise)
-    if not mark.source.strip() or right is None or shape.idea != right.idea:
-        return Group(mark.exercise, members)
-    texts = {shape_of(one.source).text for _, one in members}
-    return Group(mark.exercise, members, EQUAL if texts == {right.text} else NEARLY)
+    is_solution = mark.source.strip() and shape_of(mark.source) == solutions.get(mark.exercise)
+    return Group(mark.exercise, members, EQUAL if is_solution else "")
 
 
 def _rank(group: Group) -> tuple[int, int, str]:

@@ -81,25 +81,12 @@ def to_line(value: Job | Evidence) -> str:
     return to_json(value)
 
 
-def read_job(line: str) -> Job:
-    """Read a job.
-
-    Raises:
-        GradingError: If the line is not one.
-    """
-    return _read(Job, line)
-
-
-def read_evidence(line: str) -> Evidence:
-    """Read evidence.
+def read_line(kind: type[_Line], line: str) -> _Line:
+    """Read a job, or evidence.
 
     Raises:
         GradingError: If the line is none.
     """
-    return _read(Evidence, line)
-
-
-def _read(kind: type[_Line], line: str) -> _Line:
     try:
         return from_json(kind, line, "line")
     except RecordError as error:

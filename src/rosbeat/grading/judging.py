@@ -6,10 +6,7 @@ gives the verdict. If there is no usable output, the way in which the run ended 
 
 from __future__ import annotations
 
-import gc
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -70,27 +67,14 @@ def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> tuple[Outco
     try:
         if evidence.seen.count("[") + evidence.seen.count("{") > _MOST_NESTED:
             return _forged(exercise.id, "it holds millions of lists"), ""
-        with _uncollected():
-            seen = from_json(evidence.seen)
-            if isinstance(seen, Observation) and seen.time_ns > _LONGEST:
-                return _forged(exercise.id, f"it has lasted {seen.time_ns} ns"), ""
-            return exercise.judged(seen, seed), trace_of(seen)
+        seen = from_json(evidence.seen)
+        if isinstance(seen, Observation) and seen.time_ns > _LONGEST:
+            return _forged(exercise.id, f"it has lasted {seen.time_ns} ns"), ""
+        return exercise.judged(seen, seed), trace_of(seen)
     except RecordError as error:
         return _forged(exercise.id, str(error.what)), ""
     except Exception as error:  # a judge may meet evidence that no scenario would have written
         return _forged(exercise.id, f"it has led to {type(error).__name__}"), ""
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Look for no garbage meanwhile: evidence is plain data, and much of it, and has no cycles."""
-    was = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was:
-            gc.enable()
 
 
 def _raised(exercise: Exercise[Any], evidence: Evidence) -> Outcome:

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
+from rosbeat.grading.files import printable
 from rosbeat.grading.jobs import Job, to_line
-from rosbeat.grading.remarks import printable
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 

@@ -11,12 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rosbeat.grading.csv_table import Row, csv_text, number, read_table
-from rosbeat.grading.marks import HELD, LOOKED_AT, Gradebook, Graded, Mark
-from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.files import Row, csv_text, number, printable, read_table, write_whole
+from rosbeat.grading.marks import DIGITS, HELD, LOOKED_AT, Gradebook, Graded, Mark
 from rosbeat.grading.roster import Lookup, UnusableError
-from rosbeat.grading.weights import DIGITS
-from rosbeat.grading.writing import write_whole
+from rosbeat.grading.submissions import Remark
 
 FILE = "manual.csv"
 COLUMNS = ("learner", "exercise", "points", "comment")
@@ -80,19 +78,12 @@ class _Given:
     comment: str = ""
 
 
-def apply_manual(
-    gradebook: Gradebook, manual: Manual, before: Gradebook | None = None
-) -> Gradebook:
+def apply_manual(gradebook: Gradebook, manual: Manual) -> Gradebook:
     """Put points and comments that were given by hand into a gradebook.
 
     An exercise that was held for a person to look at has been looked at then, and says nothing else
     any more. `judged` stays what the judge gave. Points are points: they stay what was written when
-    an exercise gets another worth, and a remark says so.
-
-    Args:
-        gradebook: What was judged.
-        manual: What stands in the file.
-        before: The results of the last time, from which is known what exercises were worth.
+    an exercise gets another worth.
 
     Returns:
         The gradebook with both; lines that could not be used are among its remarks.
@@ -100,11 +91,9 @@ def apply_manual(
     lookup = Lookup(gradebook.learners)
     given: dict[tuple[str, str], _Given] = {}
     remarks = list(manual.remarks)
-    worth = _worth(before) if before else {}
     for line in manual.lines:
         try:
-            graded, mark = lookup.find(line.learner), None
-            mark = _mark(graded, line.exercise) if line.exercise else None
+            graded, mark = meant(line, lookup)
         except UnusableError as error:
             said = f"{error} Nothing is taken from this line. {error.to_try}"
             remarks.append(_remark(line.number, said))
@@ -112,39 +101,25 @@ def apply_manual(
         place = graded.learner, mark.exercise if mark else ""
         now = _read(line, mark, remarks)
         given[place] = _merged(given.get(place, _Given()), now, line, remarks)
-        if mark and now.points is not None and worth.get(place, mark.out_of) != mark.out_of:
-            remarks.append(_remark(line.number, _of_another_worth(mark, worth[place], now.points)))
     learners = [_with(one, given) for one in gradebook.learners]
     return replace(gradebook, learners=tuple(learners), remarks=(*gradebook.remarks, *remarks))
 
 
-def _worth(before: Gradebook) -> dict[tuple[str, str], float]:
-    """Return what exercises were worth when points were given by hand."""
-    return {
-        (graded.learner, mark.exercise): mark.out_of
-        for graded in before.learners
-        for mark in graded.marks
-        if mark.manual
-    }
+def meant(line: Line, lookup: Lookup[Graded]) -> tuple[Graded, Mark | None]:
+    """Return whom and which exercise a line is about; no exercise if it is about the whole.
 
-
-def _of_another_worth(mark: Mark, before: float, points: float) -> str:
-    return (
-        f"{mark.exercise} was worth {number(before)} the last time and is worth "
-        f"{number(mark.out_of)} now. The points of this line stay {number(points)}: check "
-        "whether that is still what you mean."
-    )
-
-
-def _mark(graded: Graded, exercise: str) -> Mark:
-    wanted = exercise.strip("' ").casefold()
+    Raises:
+        UnusableError: If there is no such learner or exercise.
+    """
+    graded, wanted = lookup.find(line.learner), line.exercise.strip("' ").casefold()
+    if not line.exercise:
+        return graded, None
     for mark in graded.marks:
         if mark.exercise in (wanted, f"0{wanted}"):  # 3a and 03a
-            return mark
-    shown = printable(exercise, 40)
+            return graded, mark
     graded_are = ", ".join(mark.exercise for mark in graded.marks) or "none"
     raise UnusableError(
-        f"There is no exercise {shown!r} among those that are graded.",
+        f"There is no exercise {printable(line.exercise, 40)!r} among those that are graded.",
         f"Write one of these, or leave it empty for a comment about the whole: {graded_are}.",
     )
 

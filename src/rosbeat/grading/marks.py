@@ -1,15 +1,21 @@
 """Hold the results of grading: the marks of each exercise, of a learner and of a class.
 
 These records are plain data, made from outcomes. `rosbeat grade` derives every file from them.
+What exercises are worth is the course's, or an instructor's (`read_points`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
 
-from rosbeat.grading.remarks import Remark
-from rosbeat.grading.submissions import Collection, HandedIn, Submission
-from rosbeat.records import Part
+from rosbeat.errors import GradingError
+from rosbeat.exercises.exercise import PASSED
+from rosbeat.exercises.registry import EXERCISES, PAGES
+from rosbeat.grading.files import printable, read_table
+from rosbeat.grading.submissions import Remark
+from rosbeat.records import Outcome, Part
 
 #: The status of an exercise besides those of an outcome: its page was not handed in; it has no
 #: points yet, because a person has to look at it or its file cannot be read; a person has looked at
@@ -38,7 +44,6 @@ class Mark:
         comment: What a person has written to the learner.
         late: Whether the page was handed in late. A remark about the file says how late, and what
             was taken off.
-        seconds: How long it was observed, by the clock on the wall.
         answer: The text of an answer that a person has to look at, or has looked at.
         file: The file that an exercise which is or was held was handed in with.
         source: The text of the learner's cells of this exercise, for people; not in results.json.
@@ -62,16 +67,10 @@ class Mark:
     manual: bool = False
     comment: str = ""
     late: bool = False
-    seconds: float = 0.0
     answer: str = ""
     file: str = ""
     source: str = ""
     trace: str = ""
-
-    @property
-    def waits_for_its_file(self) -> bool:
-        """Return whether it has no points yet because its file cannot be read that far."""
-        return self.status == HELD and bool(self.file) and not self.answer
 
 
 @dataclass(frozen=True)
@@ -154,52 +153,116 @@ class Gradebook:
         return tuple(one for one in self.learners if one.grade is not None)
 
 
-# What the files say about the marks of their answers.
+# What exercises are worth.
+
+COLUMNS = ("exercise", "points")
+#: Digits behind the point that any points have, so that what is shown adds up to what is shown.
+DIGITS = 2
+#: Points of one exercise or page; more is a slip of the finger.
+MOST_POINTS = 10_000
 
 
-def settle(gradebook: Gradebook, found: Collection, empty: bool = False) -> Gradebook:
-    """Hold what cannot be read, and take off points for what is late.
+@dataclass(frozen=True)
+class Points:
+    """Hold what exercises are worth.
+
+    Attributes:
+        by_exercise: Points by the exercise's id; without an entry, those of the course.
+    """
+
+    by_exercise: dict[str, float] = field(default_factory=dict)
+
+    def of(self, exercise: str, default: float) -> float:
+        """Return what an exercise is worth; with 0 points it is not graded."""
+        return self.by_exercise.get(exercise, float(default))
+
+
+def scaled(outcome: Outcome, out_of: float) -> float:
+    """Return the points for an outcome if the exercise is worth more or less than in the course.
 
     Args:
-        gradebook: What was judged.
-        found: What was handed in.
-        empty: Whether a learner who handed in nothing gets no grade instead of 0 points.
+        outcome: What the judge says. Part of its points gives the same part here.
+        out_of: What the exercise is worth.
 
     Returns:
-        The gradebook. Nobody has 0 points for a page that was there and cannot be read.
+        Points from 0 to `out_of`, in hundredths.
     """
-    submissions = {one.learner: one for one in found.submissions}
-    learners = (_settled(one, submissions.get(one.learner), empty) for one in gradebook.learners)
-    return replace(gradebook, learners=tuple(learners))
+    whole = outcome.out_of or 1
+    reached = outcome.points if outcome.out_of else float(outcome.status == PASSED)
+    return round(min(max(reached / whole, 0.0), 1.0) * out_of, DIGITS)
 
 
-def _settled(graded: Graded, one: Submission | None, empty: bool) -> Graded:
-    if one is None:
-        return graded
-    pages = {page.page: page for page in one.pages}
-    marks = tuple(_settled_mark(mark, pages.get(mark.page), one) for mark in graded.marks)
-    missing = all(mark.status == MISSING for mark in marks)
-    return replace(graded, marks=marks, excused=empty and missing)
+def read_points(path: Path) -> Points:
+    """Read what exercises are worth.
+
+    Raises:
+        GradingError: If it cannot be read, or if a line of it cannot be used.
+    """
+    table = read_table(path, COLUMNS)
+    given: dict[str, float] = {}
+    line = 1
+    try:
+        if "points" not in table.header:
+            raise ValueError("there is no column points")
+        for row in table.rows:
+            line = row.line
+            name = _name(row.cells.get("exercise", ""))
+            if name in given:
+                raise ValueError(f"{name} is there a second time")
+            given[name] = _points(row.cells.get("points", ""))
+        return Points(_shared_out(given))
+    except ValueError as error:
+        raise GradingError(
+            f"The points in {printable(str(path))} cannot be used: line {line}: {error}.",
+            "Marks that follow from a slip would be wrong for everybody, so nothing is graded.",
+            "Correct the line: an exercise such as 03a or a page such as 03, a comma, and points.",
+        ) from None
 
 
-def _settled_mark(mark: Mark, page: HandedIn | None, one: Submission) -> Mark:
-    if page is not None and page.notebook.problem:
-        return _unread(mark, page.path, page.notebook.problem, page.late)
-    if page is None and one.unread:
-        first = one.unread[0]
-        return _unread(mark, first.path, f"It may be in {first.path}. {first.text}", late=False)
-    if page is None or not page.off:
-        return mark
-    return replace(mark, points=round(mark.points * (1 - page.off), 2))
+def _name(text: str) -> str:
+    """Return an exercise's id or a page's number, also if a spreadsheet took its zero away."""
+    known = {*EXERCISES, *(page.number for page in PAGES if page.number)}
+    wanted = text.strip("' ").casefold()
+    for name in (wanted, f"0{wanted}", wanted.split("_")[0]):
+        if name in known:
+            return name
+    raise ValueError(f"there is no exercise or page {printable(text, 40)!r}")
 
 
-def _unread(mark: Mark, file: str, why: str, late: bool) -> Mark:
-    """Return the mark of an exercise whose page was there and cannot be read."""
-    said = f"The page cannot be read. {why}"
-    return Mark(
-        *(mark.exercise, mark.title, mark.page, HELD, 0.0, mark.out_of, said),
-        evidence=said,
-        hint="Hand the page in again.",
-        late=late,
-        file=file,
-    )
+def _points(text: str) -> float:
+    try:
+        points = float(text.replace(",", "."))
+    except ValueError:
+        raise ValueError(f"{printable(text, 40)!r} is not a number of points") from None
+    if not 0 <= points <= MOST_POINTS or (points and not round(points, DIGITS)):  # nor is NaN
+        said = f"points are 0, or from 0.01 to {MOST_POINTS}, and not {printable(text, 40)}"
+        raise ValueError(said)
+    return round(points, DIGITS)
+
+
+def _shared_out(given: Mapping[str, float]) -> dict[str, float]:
+    """Return points by exercises; those of a page are shared among its exercises."""
+    shared = dict(given)
+    for page in PAGES:
+        if page.number not in given:
+            continue
+        whole = shared.pop(page.number)
+        own = {one.id: shared.get(one.id, float(one.points)) for one in page.exercises}
+        shares = _hundredths(own, whole) if any(own.values()) else own
+        if whole and not all(shares[name] for name in own if own[name]):
+            raise ValueError(f"there are too few points for all exercises of page {page.number}")
+        if whole and not any(own.values()):
+            raise ValueError(f"none of the exercises of page {page.number} has points")
+        shared |= shares
+    return shared
+
+
+def _hundredths(own: Mapping[str, float], whole: float) -> dict[str, float]:
+    """Return shares in whole hundredths that add up to all points (largest remainders)."""
+    total = sum(own.values())
+    exact = {name: points / total * round(whole * 100) for name, points in own.items()}
+    shares = {name: int(share) for name, share in exact.items()}
+    by_remainder = sorted(exact, key=lambda name: (shares[name] - exact[name], name))
+    for name in by_remainder[: round(whole * 100) - sum(shares.values())]:
+        shares[name] += 1
+    return {name: share / 100 for name, share in shares.items()}

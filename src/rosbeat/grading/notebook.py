@@ -1,4 +1,4 @@
-"""Read a submitted notebook as untrusted input, and repair it where that is fair.
+"""Read a submitted notebook as untrusted input.
 
 Nothing is executed. Outputs are dropped, however large they are, and the only metadata that is read
 identifies the page and the exercise of a cell.
@@ -7,9 +7,12 @@ identifies the page and the exercise of a cell.
 from __future__ import annotations
 
 import json
-import re
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
+
+from rosbeat.errors import GradingError
 
 #: Cells of a notebook that are looked at; a page has fewer than fifty.
 MOST_CELLS = 2_000
@@ -44,16 +47,12 @@ class Notebook:
 
     Attributes:
         lesson: The page that it says it is, such as `03_write_a_publisher`; or empty.
-        repairs: What was repaired to read it, a sentence each.
         problem: Why nothing could be read, a sentence; or empty.
-        cut: Whether the file breaks off, so that there may have been more cells.
     """
 
     cells: tuple[Cell, ...] = ()
     lesson: str = ""
-    repairs: tuple[str, ...] = ()
     problem: str = ""
-    cut: bool = False
 
 
 def read_notebook(data: bytes) -> Notebook:
@@ -62,19 +61,20 @@ def read_notebook(data: bytes) -> Notebook:
         return Notebook(problem="The file is empty.")
     if sum(map(data.count, (b",", b"[", b"{"))) > MOST_VALUES:
         return Notebook(problem="The file has millions of values, more than any page.")
-    repairs: list[str] = []
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = data.decode("utf-8", "replace")
-        repairs.append("Its text is not UTF-8; what cannot be read was replaced.")
+        return Notebook(problem="The file is not a notebook: it is not UTF-8.")
     try:
         whole = json.loads(text)
     except (ValueError, RecursionError):
-        return _salvaged(text, repairs)
+        problem = "The file is not a notebook: it is not JSON."
+        if text.lstrip()[:1] == "{":
+            problem = "The file is not whole: it breaks off, or is damaged somewhere."
+        return Notebook(problem=problem)
     if not isinstance(whole, dict) or not isinstance(whole.get("cells"), list):
         return Notebook(problem="The file is JSON, but not a notebook: it has no cells.")
-    return _made(whole["cells"], _name(_ours(whole).get("lesson")), repairs)
+    return _made(whole["cells"], _name(_ours(whole).get("lesson")))
 
 
 def _ours(of: dict[str, Any]) -> dict[str, Any]:
@@ -84,52 +84,18 @@ def _ours(of: dict[str, Any]) -> dict[str, Any]:
     return ours if isinstance(ours, dict) else {}
 
 
-def _salvaged(text: str, repairs: list[str]) -> Notebook:
-    """Return the whole cells of a file that ends too early or is damaged somewhere."""
-    start = text.find('"cells"')
-    opening = text.find("[", start) if start >= 0 else -1
-    if opening < 0:
-        return Notebook(problem="The file is not a notebook: it is not JSON, and has no cells.")
-    found = _objects(text, opening + 1)
-    if not found:
-        return Notebook(problem="The file breaks off before its first cell ends.", cut=True)
-    lesson = re.search(r'"lesson":\s*"(\w{1,100})"', text)
-    return replace(_made(found, lesson[1] if lesson else "", repairs), cut=True)
-
-
-def _objects(text: str, place: int) -> list[Any]:
-    decoder = json.JSONDecoder()
-    found: list[Any] = []
-    while len(found) < MOST_CELLS:
-        while place < len(text) and text[place] in " \t\r\n,":
-            place += 1
-        try:
-            one, end = decoder.raw_decode(text, place)
-        except (ValueError, RecursionError):
-            break
-        if not isinstance(one, dict):
-            break
-        found.append(one)
-        place = end
-    return found
-
-
-def _made(cells: list[Any], lesson: str, repairs: list[str]) -> Notebook:
+def _made(cells: list[Any], lesson: str) -> Notebook:
     if len(cells) > MOST_CELLS:
-        repairs.append(f"It has {len(cells)} cells; the first {MOST_CELLS} were read.")
-    read = [_read_cell(n, one, repairs) for n, one in enumerate(cells[:MOST_CELLS])]
-    found = tuple(one for one in read if one is not None)
+        return Notebook((), lesson, f"It has {len(cells)} cells, more than any page.")
+    found = [_read_cell(n, one) for n, one in enumerate(cells) if isinstance(one, dict)]
     for one in found:
         if len(one.source) > MOST_OF_A_CELL:
             said = f"Cell {one.place + 1} has {len(one.source)} characters, more than any answer."
-            return Notebook((), lesson, problem=said)
-    return Notebook(found, lesson, tuple(repairs))
+            return Notebook((), lesson, said)
+    return Notebook(tuple(found), lesson)
 
 
-def _read_cell(place: int, cell: Any, repairs: list[str]) -> Cell | None:  # noqa: ANN401
-    if not isinstance(cell, dict):
-        repairs.append(f"Cell {place + 1} is not a cell, and was left out.")
-        return None
+def _read_cell(place: int, cell: dict[str, Any]) -> Cell:
     names = _ours(cell)
     sort = cell.get("cell_type")
     return Cell(
@@ -150,3 +116,88 @@ def _source(value: Any) -> str:  # noqa: ANN401 - unchecked
 
 def _name(value: Any) -> str:  # noqa: ANN401 - unchecked
     return value[:100] if isinstance(value, str) else ""
+
+
+# The course's own pages.
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Describe a cell of the course's own page that waits for an answer."""
+
+    exercise: str
+    id: str
+    blank: str
+
+
+@dataclass(frozen=True)
+class CoursePage:
+    """Describe one page of the course.
+
+    Attributes:
+        lesson: Its name, such as `03_write_a_publisher`.
+        wanted: The cells that wait for an answer, in order.
+    """
+
+    lesson: str
+    title: str
+    wanted: tuple[Wanted, ...]
+    ids: frozenset[str]
+    cells: tuple[Cell, ...] = ()
+
+    @property
+    def number(self) -> str:
+        """Return its two digits."""
+        return self.lesson[:2]
+
+
+def course_pages(folder: Path) -> tuple[CoursePage, ...]:
+    """Read the course's pages.
+
+    Raises:
+        GradingError: If there are none.
+    """
+    pages = [_page(path) for path in sorted(folder.glob("[0-9][0-9]_*.ipynb"))]
+    if not pages:
+        raise GradingError(
+            f"There are no pages of the course in {folder}.",
+            "What was handed in is compared with the pages as learners got them.",
+            "Run the command in the folder of the course.",
+        )
+    return tuple(pages)
+
+
+def _page(path: Path) -> CoursePage:
+    page = read_notebook(path.read_bytes())
+    wanted = [Wanted(one.exercise, one.id, one.source) for one in page.cells if one.exercise]
+    ids = frozenset(one.id for one in page.cells)
+    return CoursePage(path.stem, _title(page), tuple(wanted), ids, page.cells)
+
+
+def _title(page: Notebook) -> str:
+    for cell in page.cells:
+        for line in cell.source.splitlines():
+            if cell.sort == "markdown" and line.startswith("# "):
+                return line.removeprefix("# ").strip()
+    return ""
+
+
+def which_page(found: Notebook, file: str, pages: Iterable[CoursePage]) -> CoursePage | None:
+    """Say which page of the course a notebook is, or None if it is none.
+
+    What it is counts more than what it is called: its exercises, its cells, what it says of itself,
+    and last of all the name of its file.
+    """
+    exercises = {one.exercise for one in found.cells} | {one.check for one in found.cells}
+    ids = {one.id for one in found.cells}
+
+    def points(page: CoursePage) -> tuple[int, ...]:
+        return (
+            len(exercises & {one.exercise for one in page.wanted}),
+            len(ids & page.ids),
+            int(found.lesson == page.lesson),
+            int(page.lesson in file),
+        )
+
+    best = max(pages, key=points, default=None)
+    return best if best is not None and any(points(best)) else None

@@ -22,12 +22,10 @@ from typing import Final, Literal
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.exercises.exercise import BLANK
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.course_pages import CoursePage, course_pages
-from rosbeat.grading.notebook import read_notebook
-from rosbeat.grading.remarks import printable
+from rosbeat.grading.files import printable, write_whole
+from rosbeat.grading.marks import Points, read_points
+from rosbeat.grading.notebook import CoursePage, course_pages, read_notebook
 from rosbeat.grading.submissions import MARKER
-from rosbeat.grading.weights import Points, read_points
-from rosbeat.grading.writing import write_whole
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.catching_up import NODES, PACKAGE
 
@@ -35,7 +33,7 @@ _FORMAT: Final = 1
 POINTS = "points.csv"
 WORKFLOW = ".github/workflows/check.yml"
 
-#: For each file, the digests of all its versions that were released.
+#: For each file, the digest of the version that was released last; earlier courses noted all.
 History = dict[str, list[str]]
 
 
@@ -147,15 +145,13 @@ def _is_inside(name: str) -> bool:
 def _put(
     target: Path, files: Mapping[str, File], history: History, pages: tuple[CoursePage, ...]
 ) -> Released:
-    """Write what nobody has changed; what is being done is noted first, in case it breaks off."""
+    """Write what nobody has changed."""
     _make_folder(target)
     digests = {name: _digest(file.content) for name, file in files.items()}
-    after = {name: [*history.get(name, [])] for name in {*history, *files}}
-    for name, digest in digests.items():
-        after[name] += [digest] if digest not in after[name] else []
     written, kept, same = [], [], 0
-    changed = {name for name in after if _is_changed(target, name, after[name])}
-    _write_marker(target, after)
+    known = {name: (*history.get(name, ()), digests.get(name, "")) for name in {*history, *files}}
+    changed = {name for name in known if _is_changed(target, name, known[name])}
+    _write_marker(target, history)  # so that a release that breaks off is one
     for name, file in sorted(files.items()):
         if name in changed:
             kept.append(name)
@@ -165,7 +161,8 @@ def _put(
             same += 1
     gone = sorted(set(history) - set(files))
     removed = [name for name in gone if name not in changed and _remove(target, name)]
-    _write_marker(target, {name: after[name] for name in after if name in files or name in changed})
+    after = {name: [digest] for name, digest in digests.items() if name not in changed}
+    _write_marker(target, after | {name: history[name] for name in changed if name in history})
     return Released(pages, tuple(written), tuple(removed), tuple(kept), same)
 
 

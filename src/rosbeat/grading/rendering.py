@@ -22,9 +22,8 @@ from rosbeat.diagnosis.mistakes import in_html
 from rosbeat.exercises.cards import LOOKS, clipped
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import PAGES
-from rosbeat.grading.csv_table import number
+from rosbeat.grading.files import number, printable
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Mark
-from rosbeat.grading.remarks import printable
 from rosbeat.viz.words import count
 
 #: Characters of a text that needs no clipping, whatever it is.

@@ -15,10 +15,8 @@ from markupsafe import Markup
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.exercises.exercise import FAILED
-from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
-from rosbeat.grading.csv_table import number
 from rosbeat.grading.feedback import FOLDER, feedback_files
-from rosbeat.grading.groups import groups_of
+from rosbeat.grading.files import number
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.rendering import (
     STATUSES,
@@ -27,27 +25,20 @@ from rosbeat.grading.rendering import (
     most,
     name,
     render,
-    segments_of,
 )
 from rosbeat.grading.submissions import own_path
 from rosbeat.viz.words import count
 
-#: How many per cent of the points each step of the distribution covers; 100 is a step of its own.
-STEP = 10
 #: Exercises that are named with a mistake; the table has all of them.
 _PLACES = 6
 #: Characters of a text of somebody's run.
 _MOST = 300
-#: Names in a list of answers that are alike, and lines of an answer from which on they are listed.
-_NAMES, _LONG = 20, 8
 #: The headings of remarks, by what they are about.
 _ABOUT = {
     "late": "Handed in late",
     "duplicate": "Handed in more than once",
     "renamed": "Under another name",
     "empty": "Empty files",
-    "half-uploaded": "Files that are not whole",
-    "mended": "Files that were mended to be read",
     "wrong-course": "Notebooks of another course",
     "unreadable": "Files that cannot be read",
     "left-out": "Files that were left out",
@@ -67,26 +58,26 @@ def class_report(book: Gradebook) -> str:
         book=book,
         own_path=own_path,
         segment=Segment,
-        points=tally_points(book),
+        reached=(median(reached), mean(reached)) if (reached := shares(book)) else (),
         mistakes=mistakes,
-        mistake_rows=[(one.title, one.count, one.learners, one.all_places) for one in mistakes],
         exercises=exercises,
         pages=[(page, list(some)) for page, some in groupby(exercises, lambda one: one.page)],
         legend=f"Learners by outcome: {signs}",
         exercise_head=["Exercise", *map(_abbreviation, STATUSES)],
         exercise_rows=[
-            (one.exercise, *(one.counts.get(status, 0) for status in STATUSES)) for one in exercises
+            (one.exercise, *(one.statuses.count(status) for status in STATUSES))
+            for one in exercises
         ],
-        held=held(book),
-        cut_off=[
-            (name(learner.called), ", ".join(exercises), name(own_path(file)))
-            for learner, file, exercises in cut_off(book)
+        held=[
+            (
+                name(one.called),
+                f"{mark.exercise} {mark.title}",
+                name(own_path(mark.file)),
+                most(mark.cause, _MOST),
+            )
+            for one, mark in all_marks(book)
+            if mark.status == HELD
         ],
-        nameless=[
-            (name(learner.called), mark.exercise, most(mark.evidence or mark.cause, _MOST))
-            for learner, mark in nameless(book)
-        ],
-        alike=_alike(book),
         learners=_learners(book),
         files=list(_files(book)),
     )
@@ -111,21 +102,6 @@ def _learners(book: Gradebook) -> _Rows:
     ]
 
 
-def _alike(book: Gradebook) -> _Rows:
-    """Return who handed in answers that are alike; short answers have few right forms."""
-    return [
-        (
-            group.exercise,
-            str(len(group.members)),
-            Markup(", ").join(name(one.called) for one, _ in group.members[:_NAMES])
-            + (f" and {len(group.members) - _NAMES} more" if len(group.members) > _NAMES else ""),
-            group.solution or "equal to each other but for names and layout",
-        )
-        for group in groups_of(book)
-        if len(group.members) > 1 and len(group.first.source.split("\n")) >= _LONG
-    ]
-
-
 def _files(book: Gradebook) -> Iterator[tuple[str, tuple[str, ...], _Rows]]:
     """Yield tables about files: caption, headings of the columns, rows."""
     nobody: _Rows = [(name(one.called),) for one in empty_handed(book)]
@@ -141,19 +117,12 @@ def _files(book: Gradebook) -> Iterator[tuple[str, tuple[str, ...], _Rows]]:
         head = ("Learner", "File", "What was found")
         yield _ABOUT.get(about) or most(about, _MOST), head, found[about]
     repaired = [(learner, mark) for learner, mark in all_marks(book) if mark.repairs]
-    searched = [_repaired(*one) for one in repaired if not _is_not_there(one[1])]
-    yield "Answers that had to be searched for", ("Learner", "Exercise", "How"), searched
-    lost = [_repaired(*one) for one in repaired if _is_not_there(one[1])]
     head = ("Learner", "Exercise", "What was found")
-    yield "Exercises whose cells are not on the page", head, lost
+    yield "Answers that were not where they belong", head, [_repaired(*one) for one in repaired]
 
 
 def _repaired(learner: Graded, mark: Mark) -> tuple[str, ...]:
     return name(learner.name), mark.exercise, most(" ".join(mark.repairs), _MOST)
-
-
-def _is_not_there(mark: Mark) -> bool:
-    return NOT_THERE in mark.repairs or PART_NOT_THERE in mark.repairs
 
 
 # Counting: pure functions of a gradebook.
@@ -161,22 +130,12 @@ def _is_not_there(mark: Mark) -> bool:
 
 @dataclass(frozen=True)
 class ExerciseTally:
-    """Hold how one exercise went in a class."""
+    """Hold how one exercise went in a class: the status of each learner."""
 
     exercise: str
     title: str
     page: str
-    counts: dict[str, int]
-
-    @property
-    def learners(self) -> int:
-        """Return of how many learners it was graded."""
-        return sum(self.counts.values())
-
-    @property
-    def segments(self) -> list[Segment]:
-        """Return the parts of its bar."""
-        return segments_of(Counter(self.counts).elements(), of_class=True)
+    statuses: list[str]
 
 
 @dataclass(frozen=True)
@@ -205,16 +164,6 @@ class MistakeTally:
         return known.heading if known else "Mistakes without a name"
 
     @property
-    def segment(self) -> Segment:
-        """Return its bar."""
-        return Segment("failed", self.count, "answers")
-
-    @property
-    def all_places(self) -> str:
-        """Return where it was found, in words."""
-        return ", ".join(f"{exercise} {many}×" for exercise, many in self.places)
-
-    @property
     def first_places(self) -> str:
         """Return where it was found most often, in words."""
         first = ", ".join(f"{exercise} {many}×" for exercise, many in self.places[:_PLACES])
@@ -222,40 +171,18 @@ class MistakeTally:
         return f"{first} and in {count(more, 'more exercise')}" if more > 0 else first
 
 
-@dataclass(frozen=True)
-class PointsTally:
-    """Hold the points of a class, in per cent of what each learner could reach."""
-
-    steps: tuple[tuple[str, int], ...]
-    median: float
-    mean: float
-
-    @property
-    def highest(self) -> int:
-        """Return how many learners are in the largest step."""
-        return max(many for _, many in self.steps)
-
-    @property
-    def range(self) -> tuple[tuple[str, int], ...]:
-        """Return the steps from the lowest that has a learner to the highest."""
-        taken = [at for at, (_, many) in enumerate(self.steps) if many]
-        return self.steps[taken[0] : taken[-1] + 1] if taken else ()
-
-
 def all_marks(book: Gradebook) -> Iterator[tuple[Graded, Mark]]:
     """Yield every mark with its learner, learner by learner."""
     yield from ((learner, mark) for learner in book.learners for mark in learner.marks)
 
 
-def tally_exercises(book: Gradebook) -> tuple[ExerciseTally, ...]:
-    """Count the outcomes of each exercise, in the order of the course."""
-    counts: dict[tuple[str, str, str], Counter[str]] = defaultdict(Counter)
+def tally_exercises(book: Gradebook) -> list[ExerciseTally]:
+    """Gather the outcomes of each exercise, in the order of the course."""
+    found: dict[str, ExerciseTally] = {}
     for _, mark in all_marks(book):
-        counts[mark.page, mark.exercise, mark.title][mark.status] += 1
-    return tuple(
-        ExerciseTally(exercise, title, page, dict(found))
-        for (page, exercise, title), found in counts.items()
-    )
+        tally = ExerciseTally(mark.exercise, mark.title, mark.page, [])
+        found.setdefault(mark.exercise, tally).statuses.append(mark.status)
+    return list(found.values())
 
 
 def tally_mistakes(book: Gradebook) -> tuple[MistakeTally, ...]:
@@ -289,45 +216,10 @@ def _first(ranked: Sequence[tuple[str, int]]) -> str:
     return ranked[0][0] if ranked else ""
 
 
-def tally_points(book: Gradebook) -> PointsTally:
-    """Sort the learners with points and a grade into steps by their share of the points."""
+def shares(book: Gradebook) -> list[float]:
+    """Return the points of learners with points and a grade, in per cent of what there was."""
     counted = [one for one in book.learners if one.out_of > 0 and not one.excused]
-    shares = [100 * one.points / one.out_of for one in counted]
-    steps = Counter(int(min(max(share, 0.0), 100.0) // STEP) for share in shares)
-    rows = [(f"{at} to {at + STEP - 1} %", steps[at // STEP]) for at in range(0, 100, STEP)]
-    rows.append(("100 %", steps[100 // STEP]))
-    return PointsTally(
-        tuple(rows), median(shares) if shares else 0.0, mean(shares) if shares else 0.0
-    )
-
-
-def held(book: Gradebook) -> list[tuple[Graded, Mark]]:
-    """Return what is held for a person to look at."""
-    return [
-        (learner, mark)
-        for learner, mark in all_marks(book)
-        if mark.status == HELD and not mark.waits_for_its_file
-    ]
-
-
-def cut_off(book: Gradebook) -> list[tuple[Graded, str, list[str]]]:
-    """Return files that break off: the learner, the path, and the ids of exercises not in them."""
-    return [
-        (learner, file, [mark.exercise for mark in marks])
-        for learner in book.learners
-        for file, marks in groupby(
-            (mark for mark in learner.marks if mark.waits_for_its_file), lambda mark: mark.file
-        )
-    ]
-
-
-def nameless(book: Gradebook) -> list[tuple[Graded, Mark]]:
-    """Return answers that failed with a mistake that has no name."""
-    return [
-        (learner, mark)
-        for learner, mark in all_marks(book)
-        if mark.status == FAILED and mark.mistake in ("", UNKNOWN)
-    ]
+    return [100 * one.points / one.out_of for one in counted]
 
 
 def empty_handed(book: Gradebook) -> list[Graded]:

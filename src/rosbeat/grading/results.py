@@ -14,20 +14,18 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.errors import GradingError, RecordError
+from rosbeat.errors import RecordError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.grading.csv_table import number
 from rosbeat.grading.feedback import FOLDER as FEEDBACK
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
+from rosbeat.grading.files import number, printable, write_whole
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import write_template
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
-from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.report import class_report, cut_off, held
+from rosbeat.grading.report import class_report
+from rosbeat.grading.submissions import Remark
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
-from rosbeat.grading.writing import write_whole
-from rosbeat.records_json import as_data, from_json, read_head
+from rosbeat.records_json import as_data, from_json
 from rosbeat.viz.words import count, sentence_case
 
 RESULTS = "results.json"
@@ -36,7 +34,7 @@ FORMAT = "rosbeat results"
 VERSION = 3
 #: Fields that are left out: those that differ from run to run, the texts of answers, and what they
 #: did.
-LEFT_OUT = {"mark": ("seconds", "source", "trace"), "learner": ("files",), "class": ("solutions",)}
+LEFT_OUT = {"mark": ("source", "trace"), "learner": ("files",), "class": ("solutions",)}
 _POINTS = ("points", "out_of", "judged")
 _DIGITS = 6
 #: Statuses in the order in which they are told, and what they are called.
@@ -55,21 +53,6 @@ _MOST_NAMED = 5
 
 
 # The folder.
-
-
-def require_folder(out: Path) -> None:
-    """Refuse a place for results that is a file, or lies in one.
-
-    Raises:
-        GradingError: If there is a file in its place.
-    """
-    there = next((one for one in (out, *out.parents) if one.exists()), None)
-    if there is not None and not there.is_dir():
-        raise GradingError(
-            f"{printable(str(there), 1000)} is a file, not a folder.",
-            "All results go into a folder, which need not be there yet; the file stays as it is.",
-            "Name a folder:  --out ~/class/grades",
-        )
 
 
 def write_results(out: Path, gradebook: Gradebook, assignment: str = "rosbeat") -> None:
@@ -112,8 +95,8 @@ def _write(path: Path, content: str | bytes) -> None:
 
 def previous_results(out: Path) -> Gradebook:
     """Read what was written the last time; nothing, if there is nothing that can be read."""
-    with suppress(OSError, RecordError, GradingError, ValueError):
-        return from_results((out / RESULTS).read_text(encoding="utf-8"))
+    with suppress(OSError, RecordError):
+        return from_json(Gradebook, (out / RESULTS).read_bytes(), "results")
     return Gradebook("", ())
 
 
@@ -139,17 +122,6 @@ def _leave_out(document: dict[str, Any], kind: str) -> None:
         del document[name]
 
 
-def from_results(text: str) -> Gradebook:
-    """Read what `to_results` wrote; what it leaves out is empty.
-
-    Raises:
-        RecordError: If it is not JSON, of another format or version, or if any field is missing or
-            of another type.
-    """
-    read_head(text, "file of results", FORMAT, VERSION)
-    return from_json(Gradebook, text, "results")
-
-
 # What a terminal is told.
 
 
@@ -172,9 +144,18 @@ def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
         without = f", without {count(waiting, 'learner')} of whom something is held"
         average = f"On average {number(round(reached, 1))} of {number(whole)} points"
         yield f"{average}{without if waiting else ''}."
-    yield from _mistake_lines(marks)
-    yield from _remark_lines(gradebook)
-    yield from _held_lines(gradebook, out)
+    remarks = [*gradebook.remarks, *(one for each in gradebook.learners for one in each.remarks)]
+    yield from _line_lines([one for one in remarks if one.about in _LINES])
+    files = Counter(printable(one.about) for one in remarks if one.about not in _LINES)
+    if files:
+        told = ", ".join(f"{times} {about}" for about, times in sorted(files.items()))
+        yield f"{count(files.total(), 'remark')} about files: {told}."
+    held = sum(mark.status == HELD for mark in marks)
+    if held:
+        file = printable(str(out / MANUAL), 1000)
+        yield f"Held for you to look at: {count(held, 'exercise')}; class.html says why."
+        yield f"  Ask for files again, or mark with --review or in {file}."
+        yield "  Then run the command again, same options."
     yield f"All results are in {printable(str(out), 1000)}; begin with class.html."
 
 
@@ -184,50 +165,8 @@ def _by_status(marks: Sequence[Mark]) -> str:
     return ", ".join(told) or "nothing to grade"
 
 
-def _mistake_lines(marks: Sequence[Mark]) -> Iterator[str]:
-    found = Counter((mark.mistake, mark.exercise) for mark in marks if mark.mistake)
-    ordered = sorted(found.items(), key=lambda one: (-one[1], one[0]))
-    for (mistake, exercise), times in ordered[:1]:
-        if times == 1:  # each is as frequent as any other
-            return
-        title = MISTAKES[mistake].title if mistake in MISTAKES else mistake
-        yield f"The most frequent mistake: {printable(title)} ({times} times, in {exercise})."
-
-
-def _remark_lines(gradebook: Gradebook) -> Iterator[str]:
-    by_hand = [one for one in gradebook.remarks if one.about in _LINES]
+def _line_lines(by_hand: Sequence[Remark]) -> Iterator[str]:
     for one in by_hand[:_MOST_NAMED]:
         yield f"{printable(one.path)}: {printable(one.text, 1000)}"
     if len(by_hand) > _MOST_NAMED:
         yield f"  and {len(by_hand) - _MOST_NAMED} more such lines; class.html lists them all"
-    files = [one for one in _remarks(gradebook) if one.about not in _LINES]
-    if files:
-        kinds = Counter(printable(one.about) for one in files)
-        told = ", ".join(f"{times} {about}" for about, times in sorted(kinds.items()))
-        yield f"{count(len(files), 'remark')} about files: {told}."
-
-
-def _remarks(gradebook: Gradebook) -> list[Remark]:
-    return [*gradebook.remarks, *(one for graded in gradebook.learners for one in graded.remarks)]
-
-
-def _held_lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
-    named = [f"{printable(one.called, 60)} {mark.exercise}" for one, mark in held(gradebook)]
-    if named:
-        yield f"Held for you to look at: {_first(named)}."
-        file = printable(str(out / "manual.csv"), 1000)
-        yield f"  class.html shows them. Mark them with --review, or write points into {file}"
-        yield "  and run the command again, same options."
-    half = [
-        f"{printable(one.called, 60)} {', '.join(exercises)}"
-        for one, _, exercises in cut_off(gradebook)
-    ]
-    if half:
-        said = "Not whole or not readable, so without points for these exercises"
-        yield f"{said}: {_first(half, '; ')}."
-        yield "  Ask for these files again."
-
-
-def _first(names: Sequence[str], between: str = ", ") -> str:
-    more = f"{between}and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
-    return between.join(names[:_MOST_NAMED]) + more

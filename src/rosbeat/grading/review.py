@@ -25,17 +25,16 @@ from urllib.parse import parse_qs, quote
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.csv_table import cell, number
 from rosbeat.grading.feedback import code_of
+from rosbeat.grading.files import cell, number, write_whole
 from rosbeat.grading.groups import Group, groups_of
-from rosbeat.grading.manual import FILE, Line, apply_manual, points_by_hand, read_manual
+from rosbeat.grading.manual import FILE, apply_manual, meant, points_by_hand, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
-from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import render
-from rosbeat.grading.results import previous_results, summary
+from rosbeat.grading.results import summary
 from rosbeat.grading.roster import Lookup, UnusableError
+from rosbeat.grading.submissions import Remark
 from rosbeat.grading.traces import picture
-from rosbeat.grading.writing import write_whole
 from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
 
 _COLUMNS = ("learner", "name", "exercise", "points", "comment")
@@ -76,7 +75,7 @@ class Review:
     def __init__(self, out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
         self.out, self._judged, self._write = out, judged, write
         self._lock = threading.RLock()
-        self._lookup, self._before = Lookup(judged.learners), previous_results(out)
+        self._lookup = Lookup(judged.learners)
         self.groups = groups_of(judged)
         self.expected = {one.exercise: one.trace for one in judged.solutions}
         self.is_written, self.said = True, ""
@@ -105,7 +104,7 @@ class Review:
     def _read(self) -> None:
         """Read manual.csv, which a person may have changed in an editor as well."""
         self._manual = read_manual(self.out / FILE)
-        self._book = apply_manual(self._judged, self._manual, self._before)
+        self._book = apply_manual(self._judged, self._manual)
         self._marks = {
             (graded.learner, mark.exercise): mark
             for graded in self._book.learners
@@ -144,8 +143,12 @@ class Review:
         gone = {(learner, exercise) for learner in members}
         rows = []
         for line in self._manual.lines:
-            whose, place = self._place(line)
-            if place not in gone:
+            whose, is_gone = "", False
+            with suppress(UnusableError):
+                graded, mark = meant(line, self._lookup)
+                whose = graded.name
+                is_gone = mark is not None and (graded.learner, mark.exercise) in gone
+            if not is_gone:
                 rows.append((line.learner, whose, line.exercise, line.points, line.comment))
         if given.points or given.comment:
             rows += [
@@ -156,16 +159,6 @@ class Review:
         if path.exists() and not kept.exists():
             write_whole(kept, path.read_bytes())
         write_whole(path, _csv([_COLUMNS, *rows]))
-
-    def _place(self, line: Line) -> tuple[str, tuple[str, str]]:
-        """Return a learner's name, and whom and what a line is about; empty for nobody."""
-        exercise = line.exercise.strip("' ").casefold()
-        exercise = exercise if exercise in EXERCISES else f"0{exercise}"  # 3a and 03a
-        try:
-            found = self._lookup.find(line.learner)
-        except UnusableError:
-            return "", ("", exercise)
-        return found.name, (found.learner, exercise)
 
     def regrade(self) -> None:
         """Write all results anew, with what was given by hand.

@@ -13,11 +13,10 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.csv_table import Row, cell, read_table
 from rosbeat.grading.deadlines import read_extension
+from rosbeat.grading.files import Row, cell, printable, read_table
 from rosbeat.grading.marks import Graded
-from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.submissions import Collection, Submission
+from rosbeat.grading.submissions import Collection, Remark, Submission
 
 # Finding a learner.
 
@@ -68,7 +67,7 @@ class Lookup(Generic[Learner]):
     def all(self, text: str) -> list[Learner]:
         """Return every learner that may be meant."""
         plain = {_plain(text)}
-        for place, wanted in enumerate(({text}, {text}, plain, plain, _orders(text))):
+        for place, wanted in enumerate(({text}, plain, plain, _orders(text))):
             found = [one for one, forms in self._forms if forms[place] & wanted - {""}]
             if found:
                 return found
@@ -80,7 +79,7 @@ def _forms(learner: str, name: str, system: str) -> tuple[set[str], ...]:
     names = {_plain(name)}
     if system == "moodle":  # as in the column Identifier of moodle.csv
         names.add(_plain(f"Participant {learner}"))
-    return {learner}, {cell(learner)}, {_plain(learner)}, names, {"".join(_words(name))}
+    return {learner}, {_plain(learner)}, names, {"".join(_words(name))}
 
 
 def _plain(text: str) -> str:
@@ -103,9 +102,10 @@ def _orders(name: str) -> set[str]:
 
 # The roster.
 
-_IDS = ("identifier", "id", "learner", "participant", "student id", "id number", "username")
-_NAMES = ("full name", "name", "student", "student name")
-_FIRST, _LAST = ("first name", "firstname", "given name"), ("last name", "surname", "lastname")
+#: Columns of a file of one's own, of Moodle's worksheet and participants, of Canvas's gradebook.
+_IDS = ("identifier", "id", "learner", "id number", "username")
+_NAMES = ("full name", "name", "student")
+_FIRST, _LAST = ("first name",), ("last name", "surname")
 _OWN = ("due", "extension")
 _LIST = ("id",)
 _KNOWN = {*_IDS, *_NAMES, *_FIRST, *_LAST, *_OWN}
@@ -183,7 +183,7 @@ def _person(row: Row, system: str, due: float | None, path: Path) -> Person:
     name = first(_NAMES) or " ".join(filter(None, (first(_FIRST), first(_LAST))))
     id_ = first(_IDS)
     number, _, rest = id_.partition(",")
-    if not name and number.isdigit() and rest:  # a list with a number before each name
+    if not name and number.isdigit() and rest:  # a list without a header: a number and a name
         id_, name = number, rest.strip()
     if system == "moodle":
         id_ = id_.removeprefix("Participant ").strip()

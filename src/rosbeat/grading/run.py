@@ -16,11 +16,12 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from queue import Empty, SimpleQueue
+from queue import SimpleQueue
 from types import MappingProxyType
 from typing import TypeVar
 
@@ -30,22 +31,18 @@ from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import NOT_THERE, Answer, answers_on
-from rosbeat.grading.course_pages import CoursePage
-from rosbeat.grading.jobs import LOST, Evidence, Job, read_evidence, to_line
+from rosbeat.grading.files import printable
+from rosbeat.grading.jobs import LOST, Evidence, Job, read_line, to_line
 from rosbeat.grading.judging import WATCHER_LOST, judge_and_trace, untouched
 from rosbeat.grading.ledger import Ledger, key_of
-from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Solution
-from rosbeat.grading.notebook import Cell
-from rosbeat.grading.remarks import REACHES_INSIDE, Remark, printable
-from rosbeat.grading.submissions import Collection, HandedIn, Submission
-from rosbeat.grading.weights import Points, scaled
+from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Points, Solution, scaled
+from rosbeat.grading.notebook import Cell, CoursePage
+from rosbeat.grading.submissions import REACHES_INSIDE, Collection, HandedIn, Remark, Submission
 from rosbeat.grading.worker import UNSAFE, environment
 from rosbeat.records import Observation, Outcome
 from rosbeat.workspace.catching_up import catch_up
 
 Key = TypeVar("Key")
-#: Why an exercise is held whose cell is not in the part of its file that can be read.
-_CUT = "The file stops before this exercise: hand it in again."
 #: Has the jobs of submissions done, and gives evidence as it comes.
 Observe = Callable[[Iterable[Sequence[tuple[str, Job]]]], Iterator[tuple[str, Evidence]]]
 #: Is told how many answers are judged, of how many; first, how many were judged in earlier runs.
@@ -62,6 +59,7 @@ class Plan:
         points: What exercises are worth.
         seed: From what the inputs of scenarios are drawn; 0 on a page. See `ledger.seed_of`.
         solved: The same pages with the published solutions, as far as there are any.
+        excuses: Whether a learner who handed in nothing gets no grade instead of 0 points.
     """
 
     pages: tuple[CoursePage, ...]
@@ -69,6 +67,7 @@ class Plan:
     points: Points = field(default_factory=Points)
     seed: int = 0
     solved: Mapping[str, tuple[Cell, ...]] = field(default_factory=dict)
+    excuses: bool = False
 
     def out_of(self, exercise: str) -> float:
         """Return what an exercise is worth."""
@@ -120,14 +119,12 @@ def all_answers(collection: Collection, plan: Plan) -> Answers:
     return {
         (one.learner, handed.page): tuple(
             answer
-            for answer in answers_on(
-                pages[handed.page], handed.notebook.cells, handed.notebook.cut, plan.seed
-            )
+            for answer in answers_on(pages[handed.page], handed.notebook.cells, plan.seed)
             if plan.out_of(answer.exercise) > 0
         )
         for one in collection.submissions
         for handed in one.pages
-        if handed.page in pages
+        if handed.page in pages and not handed.notebook.problem
     }
 
 
@@ -170,18 +167,20 @@ def _judge_new(
 
 def _graded(one: Submission, answers: Answers, plan: Plan, ledger: Ledger) -> Graded:
     handed = {page.page: page for page in one.pages}
-    marks = [
-        mark
-        for page in plan.pages
-        for mark in (
-            _marks(page, handed[page.lesson], answers[one.learner, page.lesson], plan, ledger)
-            if page.lesson in handed
-            else _missing(page, plan)
-        )
-    ]
+    marks: list[Mark] = []
+    for page in plan.pages:
+        there = handed.get(page.lesson)
+        if there is None or there.notebook.problem:
+            marks += _without_page(page, one, there, plan)
+        else:
+            found = answers[one.learner, page.lesson]
+            marks += [_mark(answer, there, plan, ledger) for answer in found]
     remarks = (*one.remarks, *_remarks(one, answers))
     files = tuple((page.page, page.path) for page in one.pages)
-    return Graded(one.learner, one.name, one.system, tuple(marks), remarks, files=files)
+    excused = plan.excuses and all(mark.status == MISSING for mark in marks)
+    return Graded(
+        *(one.learner, one.name, one.system, tuple(marks), remarks), excused=excused, files=files
+    )
 
 
 def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
@@ -194,50 +193,42 @@ def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
                 yield Remark(REACHES_INSIDE, handed.path, text)
 
 
-def _marks(
-    page: CoursePage, handed: HandedIn, answers: Sequence[Answer], plan: Plan, ledger: Ledger
-) -> Iterator[Mark]:
-    """Yield the marks of a page; what no machine could read or watch is held: it may be right."""
-    for answer in answers:
-        exercise, key = EXERCISES[answer.exercise], _key(answer, plan)
-        held = Mark(
-            *(exercise.id, exercise.title, page.lesson, HELD, 0.0, plan.out_of(exercise.id), _CUT),
-            evidence=_CUT,
-            late=handed.late,
-            file=handed.path,
-            source=answer.source,
-        )
-        outcome = ledger.get(key) or untouched(exercise)
-        if answer.cut:
-            yield held
-        elif outcome.evidence == WATCHER_LOST:
-            yield replace(
-                held,
-                cause=f"Held for a person to look at: {WATCHER_LOST}",
-                evidence=WATCHER_LOST,
-                hint="It was tried more than once. Your instructor looks at it.",
-                repairs=answer.repairs,
-                answer=answer.source,
-            )
-        else:
-            if outcome.status == NOT_ATTEMPTED and NOT_THERE in answer.repairs:
-                outcome = replace(outcome, evidence=NOT_THERE)
-            points = scaled(outcome, held.out_of)
-            yield replace(
-                held,
-                status=outcome.status,
-                points=points,
-                judged=points,
-                file="",
-                cause=cause_of(outcome),
-                mistake=outcome.mistake,
-                evidence=outcome.evidence,
-                hint=outcome.hint,
-                remarks=outcome.remarks,
-                parts=outcome.parts,
-                repairs=answer.repairs,
-                trace=ledger.trace(key),
-            )
+def _mark(answer: Answer, handed: HandedIn, plan: Plan, ledger: Ledger) -> Mark:
+    """Return the mark of an answer; what no machine could watch is held: it may be right."""
+    exercise, key = EXERCISES[answer.exercise], _key(answer, plan)
+    outcome = ledger.get(key) or untouched(exercise)
+    if outcome.status == NOT_ATTEMPTED and NOT_THERE in answer.repairs:
+        outcome = replace(outcome, evidence=NOT_THERE)
+    out_of = plan.out_of(exercise.id)
+    points = scaled(outcome, out_of)
+    mark = Mark(
+        *(exercise.id, exercise.title, handed.page, outcome.status),
+        *(round(points * (1 - handed.off), 2), out_of),
+        cause=cause_of(outcome),
+        mistake=outcome.mistake,
+        evidence=outcome.evidence,
+        hint=outcome.hint,
+        remarks=outcome.remarks,
+        parts=outcome.parts,
+        repairs=answer.repairs,
+        judged=points,
+        late=handed.late,
+        source=answer.source,
+        trace=ledger.trace(key),
+    )
+    if outcome.evidence != WATCHER_LOST:
+        return mark
+    return replace(
+        mark,
+        status=HELD,
+        points=0.0,
+        judged=0.0,
+        cause=f"Held for a person to look at: {WATCHER_LOST}",
+        mistake="",
+        hint="It was tried more than once. Your instructor looks at it.",
+        answer=answer.source,
+        file=handed.path,
+    )
 
 
 def cause_of(outcome: Outcome) -> str:
@@ -255,13 +246,27 @@ def cause_of(outcome: Outcome) -> str:
     return printable(named, 400) if outcome.status == FAILED else named
 
 
-def _missing(page: CoursePage, plan: Plan) -> Iterator[Mark]:
-    for wanted in page.wanted:
-        out_of = plan.out_of(wanted.exercise)
+def _without_page(
+    page: CoursePage, one: Submission, handed: HandedIn | None, plan: Plan
+) -> Iterator[Mark]:
+    """Yield the marks of a page that is not there, or was and cannot be read: nobody has 0 then."""
+    file, cause = "", "The page is not among the files that were handed in."
+    if handed is not None:
+        file, cause = handed.path, f"The page cannot be read. {handed.notebook.problem}"
+    elif one.unread:
+        file, why = one.unread[0].path, one.unread[0].text
+        cause = f"The page cannot be read. It may be in {file}. {why}"
+    for exercise in dict.fromkeys(wanted.exercise for wanted in page.wanted):
+        out_of = plan.out_of(exercise)
         if out_of > 0:
-            title = EXERCISES[wanted.exercise].title
-            cause = "The page is not among the files that were handed in."
-            yield Mark(wanted.exercise, title, page.lesson, MISSING, 0.0, out_of, cause)
+            status, title = HELD if file else MISSING, EXERCISES[exercise].title
+            yield Mark(
+                *(exercise, title, page.lesson, status, 0.0, out_of, cause),
+                evidence=cause if file else "",
+                hint="Hand the page in again." if file else "",
+                late=handed is not None and handed.late,
+                file=file,
+            )
 
 
 # The workspace that a page of terminals starts from.
@@ -431,7 +436,7 @@ def _understood(line: str) -> Evidence | None:
     if line.startswith('{"refused"'):
         raise GradingError(*json.loads(line)["refused"])
     try:
-        return read_evidence(line)
+        return read_line(Evidence, line)
     except GradingError:
         return None
 
@@ -480,9 +485,9 @@ class Pool:
         self.size = size or os.cpu_count() or 1
         self._unsafe, self._patience = unsafe, patience
         self._lock, self._is_closed = threading.Lock(), False
+        self._threads = ThreadPoolExecutor(self.size)
         self._idle: SimpleQueue[Worker] = SimpleQueue()
         self._all: set[Worker] = set()
-        self._threads: list[threading.Thread] = []
         for _ in range(self.size):
             self._idle.put(self._new_worker())
 
@@ -506,56 +511,37 @@ class Pool:
         Raises:
             GradingError: If no sandbox can be made.
         """
-        waiting: SimpleQueue[list[tuple[Key, Job]]] = SimpleQueue()
-        results: SimpleQueue[tuple[Key, Evidence] | BaseException | None] = SimpleQueue()
+        results: SimpleQueue[tuple[Key, Evidence] | Future[None]] = SimpleQueue()
+        left = 0
         for one in submissions:
-            waiting.put(list(one))
-        threads = [
-            threading.Thread(target=self._serve, args=(waiting, results)) for _ in range(self.size)
-        ]
-        with self._lock:
-            self._threads = [one for one in self._threads if one.is_alive()] + threads
-            for thread in threads:
-                thread.start()
-        left = len(threads)
+            future = self._threads.submit(self._serve, list(one), results.put)
+            future.add_done_callback(results.put)
+            left += 1
         while left:
             found = results.get()
-            if isinstance(found, BaseException):
-                raise found
-            if found is None:
+            if isinstance(found, Future):
+                found.result()  # raises what went wrong
                 left -= 1
             else:
                 yield found
 
     def _serve(
-        self,
-        waiting: SimpleQueue[list[tuple[Key, Job]]],
-        results: SimpleQueue[tuple[Key, Evidence] | BaseException | None],
+        self, left: list[tuple[Key, Job]], tell: Callable[[tuple[Key, Evidence]], None]
     ) -> None:
-        """Observe submissions with one worker, or those that come after it, until there is none.
-
-        Into the results goes evidence by key, what went wrong, and None when this thread is done.
-        """
+        """Observe a submission with an idle worker, or with those that come after it."""
         worker, tries = self._idle.get(), 0
         try:
-            while not self._is_closed:
-                left = waiting.get_nowait()
-                while left and not self._is_closed:
-                    for evidence in worker.observe([job for _, job in left]):
-                        results.put((left.pop(0)[0], evidence))
-                        tries = 0
-                    if left:
-                        worker, tries = self._replaced(worker), tries + 1
-                    if left and tries == _TRIES:
-                        results.put((left.pop(0)[0], Evidence(LOST)))
-                        tries = 0
-        except Empty:
-            pass
-        except BaseException as error:
-            results.put(error)
+            while left and not self._is_closed:
+                for evidence in worker.observe([job for _, job in left]):
+                    tell((left.pop(0)[0], evidence))
+                    tries = 0
+                if left:
+                    worker, tries = self._replaced(worker), tries + 1
+                if left and tries == _TRIES:
+                    tell((left.pop(0)[0], Evidence(LOST)))
+                    tries = 0
         finally:
             self._idle.put(worker)
-            results.put(None)
 
     def _new_worker(self) -> Worker:
         worker = Worker(self._unsafe, self._patience)
@@ -577,7 +563,6 @@ class Pool:
             self._is_closed = True
         for worker in self._all:
             worker.kill()
-        for thread in self._threads:
-            thread.join()
+        self._threads.shutdown(cancel_futures=True)
         for worker in self._all:
             worker.close()

@@ -34,7 +34,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NoReturn
 
@@ -206,7 +206,6 @@ class Sandbox:
     def __init__(self, view: View, isolated: bool = True) -> None:
         self._view = view
         self._proc = os.open("/proc", os.O_RDONLY | os.O_DIRECTORY)
-        self._group = MemoryGroup.of(os.getpid()) if isolated else None
         self._init = _Init() if isolated else None
         if self._init is None:
             linux.prctl(linux.PR_SET_CHILD_SUBREAPER, 1)
@@ -237,14 +236,9 @@ class Sandbox:
                 return self._watched(watch, work, own)
         try:
             _new_scratch(self._view.readable)
-            if self._group is not None:
-                self._group.limit(limits.memory)
         except OSError as error:
             raise cannot_be_made(str(error)) from error
-        ending = self._watched(watch, work, "/tmp")
-        if self._group is not None and ending.how == "signal" and self._group.was_used_up():
-            return replace(ending, how="memory", number=0)
-        return ending
+        return self._watched(watch, work, "/tmp")
 
     def _watched(self, watch: _Watch, work: Work, folder: str) -> Ending:
         code = 0
@@ -266,8 +260,6 @@ class Sandbox:
         try:
             os.setsid()
             os.chdir(folder)
-            if self._group is not None:
-                self._group.join()
             environment = self._view.environment
             if self._init is not None:
                 _give_up_rights()
@@ -799,78 +791,3 @@ def _new_scratch(readable: Iterable[str]) -> None:
                 _make_target(one, target)
                 linux.mount(one, target, flags=linux.MS_BIND | linux.MS_REC)
         linux.mount(_FRESH, path, flags=linux.MS_MOVE)
-
-
-# Memory, where the kernel counts it.
-
-_CGROUPS, _OWN_GROUP = "/sys/fs/cgroup", "/proc/self/cgroup"
-
-
-class MemoryGroup:
-    """Let the kernel count all memory of a sandbox, in a control group (cgroup) of version 2.
-
-    It can be had where memory is counted by groups beside the group of this process, and this user
-    may make one there: as root on most machines, and under `systemd-run --user --scope`. Elsewhere
-    the keeper adds up what `/proc` shows, twenty times a second, and calls whose memory would not
-    be seen there are refused (see `linux.REFUSED`) anyway.
-    """
-
-    def __init__(self, folder: int) -> None:
-        self._folder = folder
-        self._used_up = 0
-
-    @classmethod
-    def of(cls, keeper: int, root: str = _CGROUPS) -> MemoryGroup | None:
-        """Make the group of a keeper; None if it cannot be had."""
-        path = cls._path(keeper, root)
-        if not path:
-            return None
-        try:
-            os.mkdir(path)
-            group = cls(os.open(path, os.O_RDONLY | os.O_DIRECTORY))
-            group._put("memory.swap.max", "0")
-        except OSError:
-            return None
-        return group
-
-    @classmethod
-    def remove(cls, keeper: int, root: str = _CGROUPS) -> None:
-        """Remove the group of a keeper that has ended, if there is one."""
-        path = cls._path(keeper, root)
-        if path:
-            with suppress(OSError):
-                os.rmdir(path)
-
-    @staticmethod
-    def _path(keeper: int, root: str) -> str:
-        """Return where the group goes: beside this process's own. Empty if none can be there."""
-        try:
-            lines = Path(_OWN_GROUP).read_text(encoding="ascii").splitlines()
-            own = next(line[3:] for line in lines if line.startswith("0::"))
-            beside = root + os.path.dirname(own).rstrip("/")
-            counted = Path(beside, "cgroup.subtree_control").read_text(encoding="ascii").split()
-        except (OSError, StopIteration):
-            return ""
-        return f"{beside}/rosbeat-{keeper}" if "memory" in counted else ""
-
-    def _put(self, name: str, text: str) -> None:
-        handle = os.open(name, os.O_WRONLY, dir_fd=self._folder)
-        try:
-            os.write(handle, text.encode())
-        finally:
-            os.close(handle)
-
-    def limit(self, memory: int) -> None:
-        """Limit the memory of whatever is in the group, in bytes."""
-        self._put("memory.max", str(memory))
-
-    def join(self) -> None:
-        """Put this process into the group."""
-        self._put("cgroup.procs", "0")
-
-    def was_used_up(self) -> bool:
-        """Return whether the kernel has ended something for want of memory since the last time."""
-        before = self._used_up
-        lines = _read("memory.events", self._folder).splitlines()
-        self._used_up = sum(int(one.split()[1]) for one in lines if one.startswith(b"oom_kill "))
-        return self._used_up > before

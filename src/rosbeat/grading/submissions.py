@@ -14,15 +14,34 @@ from itertools import groupby
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.course_pages import CoursePage, which_page
-from rosbeat.grading.ledger import FILE as LEDGER
-from rosbeat.grading.notebook import Notebook, read_notebook
-from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.files import printable
+from rosbeat.grading.notebook import CoursePage, Notebook, read_notebook, which_page
 from rosbeat.grading.uploads import EMPTY_FOLDER, OTHER_ARCHIVES, Allowance, File, open_upload
 from rosbeat.grading.uploads import opened as opened_file
 
 #: The file that marks a folder as a release; see `release`.
 MARKER = ".rosbeat-release.json"
+#: What a remark is about that is for the instructor only: an answer that reaches for what runs and
+#: observes it.
+REACHES_INSIDE = "reaches-inside"
+
+
+@dataclass(frozen=True)
+class Remark:
+    """Tell something about one file.
+
+    Attributes:
+        about: What it is: `late`, `duplicate`, `renamed`, `empty`, `wrong-course`, `unreadable`
+            or `left-out`; or `manual`, a line of `manual.csv`; or
+            `roster`, a line of the roster or somebody who is not on it; or `reaches-inside`, an
+            answer that reaches for what observes it.
+        path: The file, as it was named, made safe to print.
+        text: One sentence about what was found and what was done.
+    """
+
+    about: str
+    path: str
+    text: str
 
 
 @dataclass(frozen=True)
@@ -238,8 +257,9 @@ def _submission(files: Sequence[tuple[Owner, File]], pages: Sequence[CoursePage]
         _chosen([one for one in reader.found if one[1].page == lesson], remarks)
         for lesson in sorted({one[1].page for one in reader.found}, key=lessons.index)
     ]
-    if reader.left_out > _MOST_LEFT_OUT:
-        text = f"{reader.left_out - _MOST_LEFT_OUT} more files are not notebooks."
+    remarks += reader.left_out[:_MOST_LEFT_OUT]
+    if len(reader.left_out) > _MOST_LEFT_OUT:
+        text = f"{len(reader.left_out) - _MOST_LEFT_OUT} more files are not notebooks."
         remarks.append(Remark("left-out", printable(first.name), text))
     unread = tuple(reader.unread)
     return Submission(first.id, first.name, first.system, tuple(chosen), tuple(remarks), unread)
@@ -254,81 +274,53 @@ class _Reader:
         self.found: list[_Found] = []
         self.remarks: list[Remark] = []
         self.unread: list[Remark] = []
-        self.left_out = 0
+        self.left_out: list[Remark] = []
 
     def read(self, owner: Owner, file: File) -> None:
         """Read one file."""
         if file.problem == EMPTY_FOLDER:
             self.remarks.append(Remark("empty", file.path, file.problem))
             return
-        named = next((page for page in self._pages if page.lesson in owner.file), None)
-        if not file.problem and not file.parts[-1].lower().endswith(_NOTEBOOKS):
-            self._another_format(owner, file, named)
-            return
         notebook = self._notebook(file)
         if notebook.problem:
-            self._unreadable(owner, file, notebook, named)
+            self._unreadable(owner, file, notebook)
             return
         page = which_page(notebook, owner.file, self._pages)
         if page is None:
             text = "It is a notebook, but not a page of this course, so it is left out."
             self.remarks.append(Remark("wrong-course", file.path, text))
-        else:
-            self._page(owner, file, notebook, page)
+            return
+        if page.lesson not in owner.file:
+            text = f"By its content, this is the page {page.lesson}; it has another name."
+            self.remarks.append(Remark("renamed", file.path, text))
+        self._keep(owner, file, notebook, page)
 
     def _notebook(self, file: File) -> Notebook:
+        name = file.parts[-1].lower()
+        if not file.problem and not name.endswith(_NOTEBOOKS):
+            is_archive = name.endswith(OTHER_ARCHIVES)
+            what = "an archive of a kind that is not opened" if is_archive else "not a notebook"
+            return Notebook(problem=f"The file is {what}.")
         try:
             return read_notebook(self._allowed.read(file))
         except OSError as error:
             return Notebook(problem=printable(str(error), 400))
 
-    def _another_format(self, owner: Owner, file: File, named: CoursePage | None) -> None:
-        """Note a file that is not a notebook; one that may hold a page waits for a person."""
-        is_archive = file.parts[-1].lower().endswith(OTHER_ARCHIVES)
-        if is_archive or named is not None:
-            what = "an archive of a kind that is not opened" if is_archive else "not a notebook"
-            problem = f"The file is {what}. Ask for the page itself, an .ipynb file."
-            self._unreadable(owner, file, Notebook(problem=problem), named)
-            return
-        is_typed = any("_assignsubmission_onlinetext" in part for part in file.parts)
-        what = "text that was typed into Moodle" if is_typed else "not a notebook"
-        self._leave_out(file, f"It is {what}, so it is left out.")
-
-    def _leave_out(self, file: File, text: str) -> None:
-        self.left_out += 1
-        if self.left_out <= _MOST_LEFT_OUT:
-            self.remarks.append(Remark("left-out", file.path, text))
-
-    def _unreadable(
-        self, owner: Owner, file: File, notebook: Notebook, named: CoursePage | None
-    ) -> None:
+    def _unreadable(self, owner: Owner, file: File, notebook: Notebook) -> None:
+        """Note a file that cannot be read; one that may hold a page waits for a person."""
+        named = next((page for page in self._pages if page.lesson in owner.file), None)
         name = file.parts[-1].lower()
         is_attempt = ".ipynb" in name or name.endswith((".zip", *OTHER_ARCHIVES)) or not name
         if named is None and not is_attempt:
-            self._leave_out(file, f"It is left out. {notebook.problem}")
+            self.left_out.append(Remark("left-out", file.path, notebook.problem))
             return
         about = "empty" if "is empty" in notebook.problem else "unreadable"
-        remark = Remark("half-uploaded" if notebook.cut else about, file.path, notebook.problem)
+        remark = Remark(about, file.path, notebook.problem)
         self.remarks.append(remark)
         if named is None:
             self.unread.append(remark)
         else:
             self._keep(owner, file, notebook, named)
-
-    def _page(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
-        there = {cell.id for cell in notebook.cells} & page.ids
-        if notebook.cut and there >= page.ids - {""} and there:
-            said = "The end of the file is damaged; all cells of the page are there."
-            notebook = replace(notebook, cut=False, repairs=(*notebook.repairs, said))
-        self.remarks += [Remark("mended", file.path, one) for one in notebook.repairs]
-        if notebook.cut:
-            cells = f"{len(there) or len(notebook.cells)} of the page's {len(page.cells)} cells"
-            text = f"The file is not whole: {cells} are there."
-            self.remarks.append(Remark("half-uploaded", file.path, text))
-        if page.lesson not in owner.file:
-            text = f"By its content, this is the page {page.lesson}; it has another name."
-            self.remarks.append(Remark("renamed", file.path, text))
-        self._keep(owner, file, notebook, page)
 
     def _keep(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
         handed = HandedIn(page.lesson, file.path, notebook, owner.late, file.modified)
@@ -353,8 +345,6 @@ def _rank(one: _Found) -> tuple[bool, int, float, int]:
 
 # What cannot be submissions.
 
-#: Remarks about files that somebody meant to be a page.
-_ATTEMPTS = {"empty", "half-uploaded", "unreadable"}
 _MEANS = """\
 Nothing was written. Submissions are the zip file that Moodle or Canvas lets you download,
                  or a folder (or a zip file) for each learner with pages of the course in it, as
@@ -362,14 +352,8 @@ Nothing was written. Submissions are the zip file that Moodle or Canvas lets you
 _TRY = "Give that zip file or folder; docs/instructors.md shows what it may look like."
 
 
-def require_submissions(source: Path, found: Collection, is_known: bool) -> None:
+def require_submissions(source: Path, found: Collection) -> None:
     """Refuse what holds no submission, so that a wrong folder is noticed.
-
-    Args:
-        source: What somebody pointed at.
-        found: What was found in it.
-        is_known: Whether the pages that count, or the learners, are known without any page. Then a
-            class in which nobody handed in a page that can be read is a class all the same.
 
     Raises:
         GradingError: If it is a release, or there is neither a page nor an attempt at one.
@@ -377,15 +361,13 @@ def require_submissions(source: Path, found: Collection, is_known: bool) -> None
     name = printable(str(source), 1000)
     if (source / MARKER).is_file():
         raise GradingError(f"{name} is what learners get, a release.", _MEANS, _TRY)
-    if any(one.pages for one in found.submissions):
+    if any(one.pages or one.unread for one in found.submissions):
         return
-    tried = any(
-        one.system != "folder" or one.unread or any(each.about in _ATTEMPTS for each in one.remarks)
-        for one in found.submissions
-    )
-    if not (is_known and tried):
-        raise GradingError(f"{name} has no submission in it: {_why_none(source, found)}", _MEANS,
-                           _TRY)  # fmt: skip
+    remarks = [*found.remarks, *(one for each in found.submissions for one in each.remarks)]
+    why = "it is empty."
+    if remarks:
+        why = f"no file of it is a page of this course. {remarks[0].path}: {remarks[0].text}"
+    raise GradingError(f"{name} has no submission in it: {why}", _MEANS, _TRY)
 
 
 def require_apart(source: Path, out: Path) -> None:
@@ -400,14 +382,3 @@ def require_apart(source: Path, out: Path) -> None:
             "The next run would take them for something that was handed in; nothing was written.",
             "Name a folder beside it:  --out ~/class/grades",
         )
-
-
-def _why_none(source: Path, found: Collection) -> str:
-    remarks = [*found.remarks, *(one for each in found.submissions for one in each.remarks)]
-    if not remarks:
-        return "it is empty."
-    if (source / LEDGER).is_file():
-        return "it is a folder of results."
-    none = "its one file is not" if len(remarks) == 1 else f"of its {len(remarks)} files none is"
-    example = f"For example {remarks[0].path}: {remarks[0].text}"
-    return f"{none} a learner's page of this course. {example}"

@@ -16,15 +16,11 @@ Sources of the formats:
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from html import escape
 
-from rosbeat.errors import GradingError
-from rosbeat.grading.csv_table import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
-from rosbeat.grading.feedback import told_to
+from rosbeat.grading.files import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number, printable
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
-from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.submissions import own_path
 
 #: Excel takes a file for UTF-8 only if it begins with this; others skip it.
 _BYTE_ORDER_MARK = "\ufeff"
@@ -39,16 +35,10 @@ _MOODLE = (
 )
 _CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 _POINTS_POSSIBLE = "Points Possible"
-#: Columns of which Canvas makes no assignment, because its own export has them.
-_CANVAS_S_OWN = re.compile(
-    r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)", re.IGNORECASE
-)
 #: Signs of formulas as HTML, so that the file is harmless in a spreadsheet too.
 _AS_HTML = {ord(sign): f"&#{ord(sign)};" for sign in FORMULA_SIGNS}
 #: Characters of one sentence or comment in Moodle's feedback.
 _MOST_OF_A_LINE = 2_000
-#: Remarks about files in Moodle's feedback.
-_MOST_FILES = 10
 
 
 def grades_csv(gradebook: Gradebook) -> str:
@@ -116,28 +106,16 @@ def _feedback_lines(graded: Graded) -> Iterator[str]:
         yield "<p>Nothing was handed in, so there is no grade.</p>"
     elif graded.is_settled:
         yield f"<p>{_html(number(graded.points))} of {_html(number(graded.out_of))} points.</p>"
-    elif any(mark.waits_for_its_file for mark in graded.marks):
-        said = "One of your files is not whole or cannot be read, so there are no points yet."
-        yield f"<p>{said} Hand it in again.</p>"
     else:
-        yield "<p>Your instructor will look at one of your answers; then there are points.</p>"
+        yield "<p>One of your exercises has no points yet; below is why.</p>"
     if graded.comment:
         yield f"<p>{_html(graded.comment)}</p>"
-    yield from _file_lines(told_to(graded))
     for mark in graded.marks:
         reached = f"{number(mark.points)} of {number(mark.out_of)}"
         reached = "not settled yet" if mark.status == HELD else reached
         told = f"{mark.exercise}, {mark.title}: {reached}. {mark.cause}"
         comment = f"<br>{_html(mark.comment)}" if mark.comment else ""
         yield f"<p>{_html(told)}{comment}</p>"
-
-
-def _file_lines(remarks: Sequence[Remark]) -> Iterator[str]:
-    """Yield what was noticed about files, so that nobody has to guess where points went."""
-    for one in remarks[:_MOST_FILES]:
-        yield f"<p>{_html(f'{own_path(one.path)}: {one.text}')}</p>"
-    if len(remarks) > _MOST_FILES:
-        yield f"<p>And {len(remarks) - _MOST_FILES} more remarks about your files.</p>"
 
 
 def _html(text: str) -> str:
@@ -157,17 +135,8 @@ def canvas_csv(gradebook: Gradebook, assignment: str = "rosbeat") -> str:
 
     Returns:
         The file; empty if nobody's submission came from Canvas.
-
-    Raises:
-        GradingError: If Canvas would not take the title for that of an assignment.
     """
     learners = [one for one in gradebook.learners if one.system == "canvas"]
-    if not assignment.strip() or assignment in _CANVAS or _CANVAS_S_OWN.search(assignment):
-        raise GradingError(
-            f"{printable(assignment)!r} cannot be the title of an assignment in Canvas.",
-            "Canvas has a column of its own with that name, and would leave the points out.",
-            "Give the assignment's title, or its title with the number: Publishers (4711).",
-        )
     whole = max((one.out_of for one in learners), default=0.0)
     rows: list[tuple[str | float, ...]] = [(*_CANVAS, assignment)]
     rows.append((f"    {_POINTS_POSSIBLE}", "", "", "", "", whole))

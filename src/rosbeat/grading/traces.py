@@ -173,7 +173,7 @@ class Band:
         kind: `own`, `expected` or `input`; the name of its colour and of its mark.
         top: Where it begins, in units of the picture.
         height: Its height.
-        points: Where its marks are, and whether the published solution says something else then.
+        marks: Its marks as a path of SVG: a line without length is a dot.
         words: Words beside the marks, with where they begin.
     """
 
@@ -181,18 +181,8 @@ class Band:
     label: str
     top: float
     height: float
-    points: tuple[tuple[float, float, bool], ...]
+    marks: str = ""
     words: tuple[tuple[float, str], ...] = ()
-
-    @property
-    def paths(self) -> list[tuple[str, Markup]]:
-        """Return the marks as paths of SVG, by their class: a line without length is a dot."""
-        kinds = (("mark", False), ("mark differs", True))
-        found = [
-            (kind, "".join(f"M{x:.1f} {y:.1f}h0" for x, y, odd in self.points if odd is wanted))
-            for kind, wanted in kinds
-        ]
-        return [(kind, Markup(path)) for kind, path in found if path]
 
 
 @dataclass(frozen=True)
@@ -216,11 +206,6 @@ class Picture:
     own: str = ""
     expected: str = ""
 
-    @property
-    def differs(self) -> bool:
-        """Return whether words of the answer differ from those of the published solution."""
-        return any(odd for band in self.bands for _, _, odd in band.points)
-
 
 def picture(own: str, expected: str = "") -> Picture | None:
     """Return the picture of an answer beside that of the published solution.
@@ -238,8 +223,7 @@ def picture(own: str, expected: str = "") -> Picture | None:
         top += _HEADING
         low, high = _range(lane for lane in lanes.values() if lane)
         for kind, lane in lanes.items():
-            other = lanes.get("expected") if kind == "own" else None
-            band = _band(kind, lane, top, seconds, (low, high), other)
+            band = _band(kind, lane, top, seconds, (low, high))
             bands.append(band)
             top += band.height
         said.append(_said(role, name, lanes))
@@ -274,54 +258,40 @@ def _range(lanes: Iterable[Lane]) -> tuple[float, float]:
 
 
 def _band(
-    kind: str,
-    lane: Lane | None,
-    top: float,
-    seconds: float,
-    span: tuple[float, float],
-    other: Lane | None,
+    kind: str, lane: Lane | None, top: float, seconds: float, span: tuple[float, float]
 ) -> Band:
     """Place the marks of a lane; numbers by their value, words in a line."""
     if lane is None or not lane.times:
-        return Band(kind, f"{_LABELS[kind]}: nothing", top, _WORDS, ())
+        return Band(kind, f"{_LABELS[kind]}: nothing", top, _WORDS)
     across = [_LEFT + (_RIGHT - _LEFT) * min(at / seconds, 1.0) for at in lane.times]
     if lane.words:
-        differ = _differing(lane, other)
-        points = tuple((x, top + 22, odd) for x, odd in zip(across, differ, strict=True))
-        words = _fitting(across, lane.words, differ)
-        return Band(kind, _LABELS[kind], top, _WORDS + 14, points, words)
+        words = _fitting(across, lane.words)
+        return Band(
+            kind, _LABELS[kind], top, _WORDS + 14, _dots(across, [top + 22] * len(across)), words
+        )
     low, high = span
     ups = [(value - low) / (high - low) if high > low else 0.5 for value in lane.values]
     inner, base = _NUMBERS - 24, top + 18
-    points = tuple((x, base + inner * (1 - up), False) for x, up in zip(across, ups, strict=True))
     some = f"{rounded(min(lane.values))} to {rounded(max(lane.values))}"
     label = f"{_LABELS[kind]}: {some}".removeprefix(": ")
-    return Band(kind, label, top, _NUMBERS, points)
+    return Band(kind, label, top, _NUMBERS, _dots(across, [base + inner * (1 - up) for up in ups]))
 
 
-def _differing(lane: Lane, other: Lane | None) -> list[bool]:
-    """Return of each word whether the published solution has another one at that time, or none.
-
-    Numbers are not compared: two right answers may draw different ones.
-    """
-    if other is None or not other.words:
-        return [False] * len(lane.words)
-    there = set(zip(other.times, other.words, strict=True))
-    return [one not in there for one in zip(lane.times, lane.words, strict=True)]
+def _dots(across: Iterable[float], down: Iterable[float]) -> str:
+    places = zip(across, down, strict=True)
+    return Markup("".join(f"M{x:.1f} {y:.1f}h0" for x, y in places))  # whole in any length
 
 
-def _fitting(
-    across: Sequence[float], words: Sequence[str], differ: Sequence[bool]
-) -> tuple[tuple[float, str], ...]:
-    """Return words with their places as far as there is room: those that differ first."""
-    changed = [n for n, word in enumerate(words) if n == 0 or word != words[n - 1]]
-    found: list[tuple[float, float, str]] = []
-    for n in sorted(changed, key=lambda n: not differ[n]):
-        wide = _LETTER * len(words[n])
-        place = max(_LEFT, min(across[n], _RIGHT - wide))
-        if all(place + wide + 8 <= left or right + 8 <= place for left, right, _ in found):
-            found.append((place, place + wide, words[n]))
-    return tuple((left, word) for left, _, word in sorted(found))
+def _fitting(across: Sequence[float], words: Sequence[str]) -> tuple[tuple[float, str], ...]:
+    """Return the words that differ from the one before, with their places, if there is room."""
+    found: list[tuple[float, str]] = []
+    free = _LEFT
+    for place, word, before in zip(across, words, ("", *words), strict=False):
+        left = max(_LEFT, min(place, _RIGHT - _LETTER * len(word)))
+        if word != before and left >= free:
+            found.append((left, word))
+            free = left + _LETTER * len(word) + 8
+    return tuple(found)
 
 
 def _ticks(seconds: float) -> tuple[tuple[float, str], ...]:

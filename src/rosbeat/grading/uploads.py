@@ -22,7 +22,7 @@ from functools import partial
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.remarks import printable
+from rosbeat.grading.files import printable
 
 #: Bytes of one file that is read: a notebook with all its outputs, or a zip file.
 MOST_BYTES = 64_000_000
@@ -41,6 +41,8 @@ _CLUTTER = {"__MACOSX", ".DS_Store", "Thumbs.db", "desktop.ini", "__pycache__"}
 _LEARNERS_FOLDER, _NOTES = "my_course", ".rosbeat"
 _PAGE_IN_PLACE = re.compile(r"\d\d_[a-z_]+\.ipynb")
 _DRIVE = re.compile(r"[A-Za-z]:")
+#: Seconds since 1970 of the year 9000.
+_LAST_DATE = 221_845_392_000
 EMPTY_FOLDER = "The folder is empty."
 _LINK = "It is a link or not an ordinary file, so it was not followed."
 _NO_COURSE = "Nobody has opened the course in this home."
@@ -236,7 +238,9 @@ def _file(root: Path, parts: tuple[str, ...]) -> File:
     found = root.joinpath(*parts).lstat()
     if not stat.S_ISREG(found.st_mode):
         return File(parts, problem=_LINK)
-    return File(parts, found.st_size, found.st_mtime, partial(_read, root, parts))
+    # A learner of a hub may set any date, also one that is in no calendar.
+    modified = min(found.st_mtime, _LAST_DATE)
+    return File(parts, found.st_size, modified, partial(_read, root, parts))
 
 
 def _read(root: Path, parts: tuple[str, ...]) -> bytes:

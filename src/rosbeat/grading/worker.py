@@ -32,11 +32,10 @@ from pathlib import Path
 
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading import linux
-from rosbeat.grading.jobs import FORGED, Evidence, Job, read_job, to_line
+from rosbeat.grading.jobs import FORGED, Evidence, Job, read_line, to_line
 from rosbeat.grading.sandbox import (
     Ending,
     Limits,
-    MemoryGroup,
     Sandbox,
     View,
     become_able,
@@ -114,7 +113,6 @@ def main(options: Sequence[str]) -> None:
             linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
             os._exit(_keep(view, isolated))
         _, status = os.waitpid(keeper, 0)
-        MemoryGroup.remove(keeper)
         if status:
             sys.exit(0 if os.waitstatus_to_exitcode(status) == _NO_MORE else 1)
 
@@ -161,7 +159,7 @@ def _keep(view: View, isolated: bool) -> int:
     try:
         with Sandbox(view, isolated) as sandbox:
             for one in json.loads(line):
-                job = read_job(one)
+                job = read_line(Job, one)
                 limits = limits_of(job, lost)
                 evidence = _observed(job, sandbox, limits)
                 is_interrupted = not job.replay and evidence.seconds >= limits.wall * PATIENCE

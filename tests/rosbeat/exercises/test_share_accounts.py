@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from rosbeat.exercises.share import Consent, append
+from rosbeat.grading.class_board import shortcomings
 from rosbeat.grading.class_folder import ClassFolder
-from rosbeat.grading.class_page import shortcomings
 from rosbeat.records import Outcome
 
 pytestmark = pytest.mark.skipif(os.geteuid() != 0, reason="becomes other accounts, as root can")

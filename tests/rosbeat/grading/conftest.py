@@ -3,7 +3,7 @@
 import pytest
 
 from grading_files import BLANK, page
-from rosbeat.grading.course_pages import course_pages
+from rosbeat.grading.notebook import course_pages
 
 
 @pytest.fixture

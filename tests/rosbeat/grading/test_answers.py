@@ -12,15 +12,11 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import (
     answers_on,
     find_cells,
-    imports_of,
-    is_replayed,
     remarks_on,
     statements_needed,
-    subject_of,
     without_magics,
 )
-from rosbeat.grading.course_pages import Wanted, course_pages
-from rosbeat.grading.notebook import Cell, read_notebook
+from rosbeat.grading.notebook import Cell, Wanted, course_pages, read_notebook
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -56,35 +52,6 @@ def test_what_nobody_has_touched_is_not_observed(answers, source):
     assert (one.job, one.remarks) == (None, ())
 
 
-CUT_OFF = page(source=DONE)
-SCRATCH = cell("class Beat(Node):\n    pass")
-
-
-@pytest.mark.parametrize(
-    ("there", "is_lost"),
-    [
-        (slice(0, 2), True),
-        (slice(0, 3), False),  # it is the last one that is there
-        (slice(3, 4), False),  # what comes behind it is there: it was taken out
-    ],
-)
-def test_an_exercise_behind_the_end_of_its_file_is_lost(pages, there, is_lost):
-    cells = read_notebook(CUT_OFF.encode()).cells[there]
-    (one,) = answers_on(pages[0], cells, cut=True)
-    assert one.cut == is_lost
-    assert not one.cut or (one.job, one.remarks, one.repairs) == (None, (), ())
-    assert not answers_on(pages[0], cells)[0].cut
-
-
-def test_a_cell_that_is_merely_alike_is_no_answer_where_the_file_breaks_off(pages):
-    made = read_notebook(notebook(SCRATCH).encode()).cells
-    given = tuple(replace(one, place=one.place + 1) for one in pages[0].cells[:2])
-    (one,) = answers_on(pages[0], (*made, *given), cut=True)
-    assert one.cut
-    (one,) = answers_on(pages[0], made, cut=True)  # of a page without any ids nothing is known
-    assert not one.cut
-
-
 def test_what_the_check_cell_was_changed_to_does_not_count(answers):
     made = (cell(DONE, id="03a-cell", exercise="03a"), cell('check("03a", Cheat)', check="03a"))
     (one,) = answers(*made)
@@ -104,13 +71,6 @@ def test_what_an_answer_needs_of_earlier_cells_is_the_learners_first_then_the_co
     assert set(one.job.earlier) == {"FIRST = 7", "import rclpy"}
 
 
-@pytest.mark.parametrize("above", ["%matplotlib inline\n!ls\nPERIOD = 2.0", "%%time\nPERIOD = 2.0"])
-def test_magics_of_an_earlier_cell_cost_nothing(answers, above):
-    made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
-    (one,) = answers(cell(above), made)
-    assert one.job.earlier == ("PERIOD = 2.0",)
-
-
 def test_what_an_answer_needs_of_another_cell_is_remarked_too(answers):
     made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
     (plain,) = answers(cell("PERIOD = 1.0"), made)
@@ -118,12 +78,6 @@ def test_what_an_answer_needs_of_another_cell_is_remarked_too(answers):
     (beside,) = answers(cell("x = f.__globals__"), cell("PERIOD = 1.0"), made)
     assert (plain.remarks, beside.remarks) == ((), ())
     assert sly.remarks == ("of another cell that it needs, line 1 uses __globals__",)
-
-
-def test_equal_answers_are_equal_jobs_wherever_they_stand(answers):
-    (one,) = answers(text=page(source=DONE))
-    (other,) = answers(cell("unused = 1"), cell(DONE, id="03a-cell", exercise="03a"))
-    assert one.job == other.job
 
 
 def test_the_whole_course_has_a_job_for_each_exercise(course):
@@ -137,12 +91,6 @@ def test_the_whole_course_has_a_job_for_each_exercise(course):
             assert one.job.subject != "None"
             is_typed = number in ("01", "02", "05", "06")
             assert bool(one.job.replay) == is_typed
-
-
-def test_a_blank_page_of_the_course_has_no_job(course):
-    for page_of_course in course.values():
-        found = answers_on(page_of_course, page_of_course.cells)
-        assert {(one.job, one.repairs) for one in found} <= {(None, ())}
 
 
 def test_an_exercise_of_several_cells_is_one_answer(course):
@@ -170,15 +118,6 @@ def test_a_replay_has_this_answer_and_blanks_for_the_others(course):
     assert not any("import check" in one for one in one.job.replay)
 
 
-def test_what_is_read_of_the_course(course):
-    assert subject_of(course["03"], "03a") == "HumiditySensor"
-    assert subject_of(course["03"], "99z") == "None"
-    assert "from rosbeat import" in imports_of(course["03"])
-    assert "Session(" not in imports_of(course["03"])
-    found = {one.exercise: is_replayed(course["05"], one) for one in course["05"].wanted}
-    assert found == {"05a": True, "05b": True}
-
-
 # Which cells hold answers.
 
 OTHER = DONE.replace("Beat", "Ear")
@@ -198,11 +137,6 @@ def cells(*made):
 
 def found(*made, wanted=WANTED[:1]):
     return find_cells(wanted, cells(*made))[0]
-
-
-def test_a_cell_in_its_place_needs_no_word():
-    one = found({"id": "one", "exercise": "03a"})
-    assert (one.source, one.place, one.repairs) == (DONE, 0, ())
 
 
 @pytest.mark.parametrize(
@@ -279,15 +213,6 @@ def test_several_cells_without_ids_are_told_apart_by_what_they_define():
     found = parts(*({"source": text, "exercise": "13b"} for text in reversed(FILLED)))
     assert [one.source for one in found] == FILLED
     assert all("another id" in " ".join(one.repairs) for one in found)
-
-
-def test_one_of_several_cells_may_be_missing():
-    found = parts(
-        {"source": FILLED[0], "id": "one", "exercise": "13b"},
-        {"source": FILLED[2], "id": "three", "exercise": "13b"},
-    )
-    assert [one.source for one in found] == [FILLED[0], "", FILLED[2]]
-    assert "not on the page" in " ".join(found[1].repairs)
 
 
 # Commands of IPython.

@@ -19,9 +19,9 @@ from rosbeat.grading import cluster as module
 from rosbeat.grading.cluster import Cluster
 from rosbeat.grading.jobs import LOST, Job
 from rosbeat.grading.ledger import FILE, Ledger
+from rosbeat.grading.marks import Points
 from rosbeat.grading.results import to_results
 from rosbeat.grading.run import Plan, Pool, grade
-from rosbeat.grading.weights import Points
 
 dask = pytest.importorskip("distributed")
 

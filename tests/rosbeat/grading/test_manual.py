@@ -1,22 +1,18 @@
 """Points and comments that a person gives, and that stay."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from graded_classes import HOSTILE, a_class, hostile_learner, mark
+from graded_classes import HOSTILE, hostile_learner, mark
 from rosbeat.errors import GradingError
 from rosbeat.grading.manual import (
-    Line,
-    Manual,
     apply_manual,
     read_manual,
-    template,
     write_template,
 )
 from rosbeat.grading.marks import Gradebook, Graded
-from rosbeat.grading.remarks import Remark
+from rosbeat.grading.submissions import Remark
 
 HEAD = "learner,exercise,points,comment\n"
 
@@ -158,40 +154,10 @@ def test_the_later_of_two_lines_counts_and_nothing_of_the_earlier_is_lost(given)
     assert [one.path for one in remarks] == ["manual.csv, line 3", "manual.csv, line 4"]
 
 
-@pytest.mark.parametrize("text", ["", "\ufeff", "\n\n", HEAD, HEAD + "ana,03a,,\n"])
-def test_nothing_changes_nothing(given, book, text):
-    assert given(text) == (book, ())
-    assert read_manual(Path("no such file")) == Manual()
-
-
 def test_a_table_without_points_and_comments_is_told(given, book):
     made, remarks = given("learner,exercise,remark\nana,03a,x\n")
     assert made.learners == book.learners
     assert "no column points" in remarks[0].text
-
-
-@pytest.mark.parametrize("text", HOSTILE)
-def test_hostile_text_is_told_safely(book, text):
-    cells = (text, "03a", "1", ""), ("ana", text, "1", ""), ("ana", "03a", text, text)
-    made = apply_manual(book, Manual(tuple(Line(2, *one) for one in cells)))
-    for one in made.remarks:
-        assert one.text.isprintable()
-        assert len(one.text) < 300
-
-
-def test_points_stay_what_they_are_when_an_exercise_gets_another_worth(tmp_path, book):
-    path = tmp_path / "manual.csv"
-    path.write_text(HEAD + "ana,03a,1.5,\nben,03b,1,\nben,03a,,Fine.\n")
-    before = apply_manual(book, read_manual(path))
-    double = tuple(replace(one, out_of=2 * one.out_of) for one in book.learners[0].marks)
-    now = replace(book, learners=(replace(book.learners[0], marks=double), book.learners[1]))
-    made = apply_manual(now, read_manual(path), before)
-    assert only(made, "ana", "03a").points == 1.5
-    (remark,) = made.remarks[len(book.remarks) :]
-    assert remark.path == "manual.csv, line 2"
-    assert "03a was worth 4 the last time and is worth 8 now" in remark.text
-    assert "stay 1.5" in remark.text
-    assert apply_manual(now, read_manual(path), made) == replace(made, remarks=book.remarks)
 
 
 # The template.
@@ -226,13 +192,6 @@ def test_what_a_person_has_written_is_never_overwritten(tmp_path, book, written)
     before = path.read_bytes()
     assert not write_template(path, book)
     assert path.read_bytes() == before
-
-
-def test_a_template_that_nobody_has_filled_in_is_renewed(tmp_path, book):
-    path = tmp_path / "manual.csv"
-    assert write_template(path, a_class(3))
-    assert write_template(path, book)
-    assert path.read_text("utf-8") == template(book).replace("\r\n", "\n")
 
 
 @pytest.mark.parametrize("text", [*filter(None, HOSTILE), '=HYPERLINK("x")'])

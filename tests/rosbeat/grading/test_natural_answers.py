@@ -15,7 +15,6 @@ from bank.pages import ROOT
 from natural_answers import STYLES, WRITTEN
 from rosbeat.grading.answers import subject_of
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.marks import settle
 from rosbeat.grading.run import Plan, Pool, grade
 from rosbeat.grading.submissions import collect
 
@@ -78,7 +77,7 @@ def marks(tmp_path_factory):
 
     with Ledger(out / "judged.jsonl") as ledger:
         found = collect(folder, plan.pages)
-        graded = settle(grade(found, plan, ledger, observe, lambda *_: None), found)
+        graded = grade(found, plan, ledger, observe, lambda *_: None)
     return {
         names[one.learner]: {mark.exercise: mark for mark in one.marks} for one in graded.learners
     }

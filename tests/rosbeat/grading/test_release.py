@@ -14,18 +14,15 @@ from grading_files import page as page_text
 from rosbeat.errors import GradingError
 from rosbeat.exercises.hint import answer_to
 from rosbeat.grading import release as module
-from rosbeat.grading.course_pages import course_pages
+from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.release import (
     FIRST_TO_CATCH_UP,
     WORKFLOW,
     catches_up,
-    readme,
     release,
     release_files,
-    without_links,
 )
 from rosbeat.grading.submissions import MARKER
-from rosbeat.grading.weights import Points
 from rosbeat.workspace.catching_up import NEEDS
 from small_course import small_course, tree
 
@@ -61,15 +58,6 @@ def test_a_release_has_what_learners_need(root, target):
     given = json.loads(found[PAGE])["cells"]
     assert given[1:] == json.loads((root / PAGE).read_text())["cells"][1:]
     assert os.access(target / "environment/course", os.X_OK)
-
-
-def test_a_second_time_nothing_is_to_do(root, target):
-    first = release(root, target)
-    before = {path: path.stat().st_mtime_ns for path in target.rglob("*") if path.is_file()}
-    second = release(root, target)
-    assert (second.written, second.removed, second.kept) == ((), (), ())
-    assert second.same == len(first.written)
-    assert before == {path: path.stat().st_mtime_ns for path in target.rglob("*") if path.is_file()}
 
 
 def test_what_nobody_has_changed_is_brought_up_to_date(root, target):
@@ -165,17 +153,6 @@ def test_other_folders_and_points_are_refused(root, target, tmp_path, says):
             release(root, place)
         says(caught.value, "nothing was written")
     assert tree(target) == {"thesis.txt": "mine"}
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["", "[]", '{"format": 99, "files": {}}', '{"format": 1, "files": {"a": 1}}', "\xff"],
-)  # fmt: skip
-def test_a_marker_that_is_none_is_refused(root, target, text):
-    target.mkdir(parents=True)
-    (target / MARKER).write_text(text, encoding="latin-1")
-    with pytest.raises(GradingError):
-        release(root, target)
 
 
 def test_a_marker_leads_to_no_other_place(root, target, tmp_path):
@@ -294,13 +271,6 @@ def test_only_pages_that_begin_where_others_end_bring_the_finished_package(real_
     assert all(catches_up([page]) for page in needing)
 
 
-def test_links_of_the_readme_lead_somewhere(real_pages, files):
-    text = readme(real_pages, Points())
-    links = [part.split(")")[0] for part in text.split("](")[1:]]
-    assert len(links) > len(real_pages)
-    assert set(links) <= set(files)
-
-
 PROGRAM = """
 import json, rosbeat
 from rosbeat import check, hint, workspace
@@ -356,13 +326,3 @@ def test_pages_in_which_somebody_has_worked_are_not_released(root, target, text,
         release(root, target)
     says(caught.value, said, "rosbeat build --no-run")
     assert not target.exists()
-
-
-def test_links_lead_only_to_pages_that_are_there():
-    text = (
-        "see [page 04](04_listen.ipynb), [4](04_x.ipynb#a-b) ![x](04.png) [y](https://a.b/04.ipynb)"
-    )
-    data = notebook(cell(f'{text}, [3](03_write.ipynb#a)\n"', "markdown")).encode()
-    found = json.loads(without_links(data, {"03_write"}))["cells"][0]["source"]
-    kept = "![x](04.png) [y](https://a.b/04.ipynb), [3](03_write.ipynb#a)"
-    assert found == f'see page 04, 4 {kept}\n"'

@@ -3,35 +3,26 @@
 import re
 from dataclasses import replace
 from importlib.resources import files
-from xml.etree import ElementTree
 
 import pytest
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from parsed_html import ELEMENTS, Parsed, require_harmless
-from reviewing import a_class_to_review
-from rosbeat.grading.csv_table import number
 from rosbeat.grading.feedback import feedback, feedback_files
+from rosbeat.grading.files import number
 from rosbeat.grading.marks import MISSING, Gradebook, Graded
 from rosbeat.grading.rendering import (
     STATUSES,
-    look_of,
-    most,
     name,
-    page_title,
     paragraph,
-    points_of,
     prose,
     readable,
 )
 from rosbeat.grading.report import (
     class_report,
-    empty_handed,
-    held,
-    nameless,
+    shares,
     tally_exercises,
     tally_mistakes,
-    tally_points,
 )
 
 ONE = Gradebook("0.1.0", (one_of_each(),))
@@ -51,15 +42,13 @@ def sections(page):
 
 
 SAID = """
-1 learner, 10 exercises. 1 answer waits for you to look at.
+1 learner, 10 exercises. 1 exercise waits for you to look at.
 Judged by version 0.1.0
-40 to 49 %: 1 learner
+Median 44 %, mean 44 % of the points.
 A topic name that no other node uses
 Hint for the class: Compare the two names letter by letter.
 03 Write a publisher
-Ana Muster (4711), 04b raise the alarm in 04.ipynb It used more memory than there is.
-The answer, 2 lines import os class A: pass
-Ana Muster (4711) 03c KeyError: 'x'.
+Ana Muster (4711) 04b raise the alarm 04.ipynb It used more memory than there is.
 Ana Muster homework (1).ipynb This is the page 03; it has another name.
 Ana Muster 04c Its cell has lost its name.
 """
@@ -70,34 +59,11 @@ def test_everything_is_said():
     assert [said for said in SAID.strip().split("\n") if said not in text] == []
 
 
-def test_each_drawing_is_said_in_words():
-    elements = Parsed(class_report(a_class(30))).elements
-    drawn = [attrs for tag, attrs in elements if tag == "svg"]
-    assert len(drawn) > 40
-    assert all(attrs["role"] == "img" and ": " in attrs["aria-label"] for attrs in drawn)
-    assert [tag for tag, _ in elements].count("table") > 5
-
-
-def test_nobody_is_named_who_need_not_be():
-    book = a_class(20)
-    named = "Learner 4"  # nothing of this learner was late, held or nameless
-    clean = next(one for one in book.learners if one.name == named)
-    quiet = Gradebook("1", (*ONE.learners, _without_trouble(clean)))
-    page = class_report(quiet)
-    assert text_of(page).count(named) == 1
-    assert "<details>\n<summary>2 learners" in page
-
-
-def _without_trouble(learner):
-    marks = tuple(replace(one, status="passed", repairs=()) for one in learner.marks)
-    return replace(learner, marks=marks, remarks=())
-
-
-@pytest.mark.parametrize("size", [0, 1, 1000])
+@pytest.mark.parametrize("size", [0, 1, 100])
 def test_classes_of_every_size(size):
     page = class_report(a_class(size))
     assert page == class_report(a_class(size))
-    assert len(page) < 1_000_000
+    assert len(page) < 200_000
     assert {tag for tag, _ in Parsed(page).elements} <= ELEMENTS
 
 
@@ -111,73 +77,16 @@ def test_strange_texts_stay_text():
 
 
 def test_every_learner_has_points_and_a_link_to_the_feedback():
-    learners = [replace(one, name=f"Ünal & {n}") for n, one in enumerate(a_class(700).learners)]
+    learners = [replace(one, name=f"Ünal & {n}") for n, one in enumerate(a_class(70).learners)]
     book = Gradebook("1", tuple(reversed(learners)))
     page = sections(class_report(book))["Learners"]
     links = [attrs["href"] for tag, attrs in Parsed(page).elements if tag == "a"]
     files = feedback_files(book)
     assert set(links) == {f"feedback/{files[one.learner]}" for one in learners}
-    assert len(links) == 700
+    assert len(links) == 70
     text = text_of(page)
     one = learners[0]
     assert f"Ünal & 0 0000 {number(one.points)} ? {number(one.out_of)} 1 Ünal & 1 0001" in text
-
-
-def test_a_held_answer_is_shown_as_it_is_and_stays_text():
-    answer = "import os\n\n    <script>alert(1)</script>\u202e\n" + "x = 1\n" * 5_000
-    held = mark("03a", "held", answer=answer, file="ana/<b>.ipynb")
-    page = class_report(Gradebook("1", (replace(one_of_each(), marks=(held,)),)))
-    assert "import os\n\n    &lt;script&gt;alert(1)&lt;/script&gt;\\u202e\nx = 1" in page
-    assert "more characters; the file has all of them" in page
-    assert {tag for tag, _ in Parsed(page).elements} <= ELEMENTS
-
-
-def test_of_long_lists_it_is_said_how_much_is_left():
-    held = mark("03a", "held", answer="import os", file="a")
-    page = class_report(Gradebook("1", (replace(one_of_each(), marks=(held,) * 250),)))
-    assert page.count("import os") == 200
-    assert "And 50 more; results.json has all of them." in page
-    assert "<details open>" not in page
-    remarks = one_of_each().remarks * 503
-    page = class_report(Gradebook("1", (replace(one_of_each(), remarks=remarks),)))
-    assert "And 3 more; the file grades.csv has all of them." in page
-
-
-def test_what_was_looked_at_waits_for_nobody_and_is_no_mistake():
-    seen = mark("03a", "looked at", points=0.5, manual=True, answer="import os")
-    text = text_of(class_report(Gradebook("1", (replace(one_of_each(), marks=(seen,)),))))
-    for said in ("No answer waits for you.", "No answer failed.", "✎ looked at by you 1"):
-        assert said in text
-    assert "import os" not in text
-
-
-def test_exercises_behind_the_end_of_a_file_are_named_with_it():
-    marks = [mark(name, "held", file="x/04.ipynb") for name in ("04a", "04b")]
-    book = Gradebook("1", (replace(one_of_each(), marks=tuple(marks)),))
-    text = text_of(class_report(book))
-    assert "No answer waits for you. 1 file is not whole." in text
-    assert "stop before these exercises" in text
-    assert "Ana Muster (4711) 04a, 04b 04.ipynb" in text
-
-
-@pytest.mark.parametrize(
-    "said", ["Its cell is not on the page.", "A cell of it is not on the page."]
-)
-def test_what_was_not_found_is_not_among_what_was(said):
-    one = replace(one_of_each(), marks=(mark("04a", "not attempted", repairs=(said,)),))
-    text = text_of(class_report(Gradebook("1", (one,))))
-    assert "searched for" not in text
-    assert f"not on the page Learner Exercise What was found Ana Muster 04a {said}" in text
-
-
-def test_answers_that_are_alike_are_listed_as_a_fact():
-    text = text_of(class_report(a_class_to_review(70)))
-    assert "fact and no verdict" in text
-    names = "equal to the published solution but for names and layout"
-    assert re.search(rf"04a 47 Learner 0 \(0000\), .* and 27 more {names}", text)
-    assert re.search(r"04a 23 Learner 2 .* and 3 more equal to each other but for names", text)
-    assert "04b 35" not in text  # one line: whoever is right writes it so
-    assert "alike" not in text_of(class_report(ONE))
 
 
 # Counting.
@@ -203,11 +112,11 @@ BOOK = Gradebook(
 
 
 def test_a_class_is_counted():
-    first, second = tally_exercises(BOOK)
-    assert (first.exercise, second.exercise) == ("03a", "04a")
-    assert first.counts == {"passed": 1, "failed": 1, "held": 1, "missing": 1}
-    assert second.counts == {"failed": 3, "missing": 1}
-    assert first.learners == second.learners == 4
+    found = {one.exercise: one.statuses for one in tally_exercises(BOOK)}
+    assert found == {
+        "03a": ["passed", "failed", "held", "missing"],
+        "04a": ["failed", "failed", "failed", "missing"],
+    }
     first, second = tally_mistakes(BOOK)
     assert (first.mistake, first.count, first.learners) == ("boundary", 3, 2)
     assert (first.places, first.hint) == ((("04a", 2), ("03a", 1)), "two")
@@ -219,26 +128,8 @@ def test_a_class_is_counted():
     ):
         places = tuple((f"0{n}a", 1) for n in range(many))
         assert replace(first, places=places).first_places.endswith(said)
-    found = tally_points(BOOK)
-    assert dict(found.steps)["50 to 59 %"] == 1
-    assert dict(found.steps)["0 to 9 %"] == 3
-    assert (found.median, found.mean, found.highest) == (0.0, 12.5, 3)
-    assert (found.range[0][0], found.range[-1][0]) == ("0 to 9 %", "50 to 59 %")
-
-
-def test_who_has_to_be_looked_at():
-    assert [(one.name, found.exercise) for one, found in held(BOOK)] == [("cy", "03a")]
-    assert [(one.name, found.exercise) for one, found in nameless(BOOK)] == [("cy", "04a")]
-    assert [one.name for one in empty_handed(BOOK)] == ["di"]
-
-
-@pytest.mark.parametrize(
-    ("points", "step"),
-    [(0, "0 to 9 %"), (0.999, "90 to 99 %"), (1, "100 %"), (2, "100 %"), (-1, "0 to 9 %")],
-)
-def test_each_share_has_its_step(points, step):
-    found = tally_points(Gradebook("1", (learner("ana", mark(points=points)),)))
-    assert [name for name, many in found.steps if many] == [step]
+    assert sorted(shares(BOOK)) == [0, 0, 0, 50]
+    assert "Median 0 %, mean 12 % of the points" in class_report(BOOK)
 
 
 # A page works from one file, whatever is in it.
@@ -269,36 +160,6 @@ def test_a_text_makes_no_elements_and_what_is_hidden_in_it_is_shown():
     assert paragraph("a\n  b") == "<pre>a\n  b</pre>"
     assert prose("a\nb") == '<p class="said" dir="auto">a\nb</p>'
     assert paragraph(" ") == prose(" ") == ""
-
-
-def test_texts_are_short():
-    assert len(readable("W" * 100_000)) < 5_000
-    assert "100,000 characters in all" in readable("W" * 100_000)
-    assert readable("W" * 3_000) == "W" * 3_000
-    assert most("abcdef", 4) == "abc…"
-    assert points_of(0.1 + 0.2, 1) == "0.3 of 1 point"
-    assert page_title("03_write_a_publisher") == "03 Write a publisher"
-    assert (page_title(""), page_title("99_x")) == ("The whole system", "99_x")
-    assert look_of("strange").word == "strange"
-
-
-def test_a_table_has_headings_of_both_kinds_and_a_long_one_is_folded():
-    page = class_report(ONE)
-    scopes = {attrs["scope"] for tag, attrs in Parsed(page).elements if tag == "th"}
-    assert scopes == {"col", "row"}
-    many = replace(one_of_each(), remarks=one_of_each().remarks * 12)
-    assert "<summary>Under another name (12)</summary>" in class_report(Gradebook("1", (many,)))
-
-
-def test_lengths_of_a_bar_are_shares_and_a_number_stands_where_it_fits():
-    marks = [mark("03a")] * 199 + [mark("03a", "failed")]
-    learners = tuple(Graded(str(n), "", "folder", (one,)) for n, one in enumerate(marks))
-    bars = re.findall(r"<svg.*?</svg>", class_report(Gradebook("1", learners)))
-    (tree,) = [one for one in map(ElementTree.fromstring, bars) if len(list(one.iter("rect"))) == 2]
-    widths = [(one.get("class"), one.get("x"), one.get("width")) for one in tree.iter("rect")]
-    assert widths == [("passed", "0.000%", "99.500%"), ("failed", "99.500%", "0.500%")]
-    assert [one.text for one in tree.iter("text")] == ["199"]
-    assert tree.get("aria-label") == "03a another sensor: 199 passed, 1 not there yet"
 
 
 # Colours: text and edges can be made out, in both themes.
@@ -350,6 +211,6 @@ def test_whoever_has_no_grade_is_told_so_and_is_not_counted():
         excused=True,
     )
     both = Gradebook("0.1.0", (learner, absent))
-    assert tally_points(both) == tally_points(replace(both, learners=(learner,)))
+    assert len(shares(both)) == 1
     assert "no grade" in class_report(both)
     assert "No grade: nothing was handed in." in feedback(absent)

@@ -6,8 +6,8 @@ import pytest
 
 from grading_files import PAGE_03
 from rosbeat.errors import GradingError
-from rosbeat.grading.csv_table import cell
 from rosbeat.grading.deadlines import read_due
+from rosbeat.grading.files import cell
 from rosbeat.grading.marks import Graded
 from rosbeat.grading.roster import Lookup, Person, UnusableError, read_roster, with_roster
 from rosbeat.grading.submissions import collect
@@ -235,20 +235,3 @@ def test_a_learner_is_found_by_what_moodle_s_worksheet_says():
         assert both.find(text).learner == "11"
     with pytest.raises(UnusableError, match="There is no learner"):
         both.find("Participant 12")
-
-
-def test_whoever_calls_himself_a_participant_is_not_taken_for_another():
-    other = Graded("12", "Participant 11", "moodle", ())
-    with pytest.raises(UnusableError, match="2 learners; write the id"):
-        Lookup([Graded("11", "Ana", "moodle", ()), other]).find("Participant 11")
-    same = Graded("11", "Participant 11", "moodle", ())
-    assert Lookup([same]).find("Participant 11") is same
-
-
-def test_an_id_comes_first_as_a_table_shows_it_and_an_empty_name_is_nobody_s():
-    both = lookup(("1", "2"), ("2", "1"), ("=A", ""), ("=a", ""), ("y", "'"))
-    for text, learner in (("1", "1"), ("2", "2"), ("'=A", "=A"), ("'=a", "=a")):
-        assert both.find(text).learner == learner
-    for text in ("0", "00", "'", "' '"):
-        with pytest.raises(UnusableError, match="There is no learner"):
-            both.find(text)

@@ -9,9 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rosbeat.grading import linux
-from rosbeat.grading import sandbox as module
-from rosbeat.grading.sandbox import Limits, MemoryGroup, cannot_be_made
+from rosbeat.grading.sandbox import Limits, cannot_be_made
 
 PROGRAM = Path(__file__).parents[2] / "sandbox_deeds.py"
 
@@ -250,89 +248,3 @@ def test_it_has_a_folder_and_an_environment_of_its_own(bare):
 
 
 # System calls and limits.
-
-
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda: linux.mount("nothing", "/no/such/place", "tmpfs"),
-        lambda: linux.unmount("/no/such/place"),
-        lambda: linux.pivot_root("/no/such/place", "/no/such/place"),
-        lambda: linux.prctl(9_999, 0),
-        lambda: linux.unshare(1),
-    ],
-    ids=["mount", "umount", "pivot_root", "prctl", "unshare"],
-)
-def test_a_call_that_fails_is_an_error_with_its_number(call):
-    with pytest.raises(OSError, match=r"\w+.*: \w") as caught:
-        call()
-    assert caught.value.errno in (errno.ENOENT, errno.EINVAL, errno.EPERM, errno.ENOSYS)
-    assert caught.value.strerror
-
-
-def test_a_machine_without_a_known_number_is_refused(monkeypatch):
-    monkeypatch.setattr(linux.platform, "machine", lambda: "vax")
-    with pytest.raises(OSError, match="vax"):
-        linux.pivot_root("/", "/")
-
-
-LIMITED = """
-import resource
-from rosbeat.grading.sandbox import Limits
-resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
-Limits(cpu=7, processes=55).apply()
-print(resource.getrlimit(resource.RLIMIT_CPU), resource.getrlimit(resource.RLIMIT_NPROC))
-print(resource.getrlimit(resource.RLIMIT_FSIZE), resource.getrlimit(resource.RLIMIT_CORE))
-"""
-
-
-def test_limits_are_set_and_never_wider_than_before():
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED], capture_output=True, text=True, check=True, timeout=60
-    )
-    assert done.stdout.split("\n")[:2] == ["(7, 7) (55, 55)", "(1000, 1000) (0, 0)"]
-
-
-# Groups of the kernel, on a folder that stands for them: what is read and written.
-
-
-@pytest.fixture
-def groups(tmp_path, monkeypatch):
-    """Let memory be counted by groups in a folder."""
-    (tmp_path / "user.slice").mkdir()
-    (tmp_path / "user.slice/cgroup.subtree_control").write_text("cpu memory pids\n")
-    (tmp_path / "cgroup").write_text("4:memory:/x\n0::/user.slice/session.scope\n")
-    monkeypatch.setattr(module, "_OWN_GROUP", str(tmp_path / "cgroup"))
-    real = module.os.mkdir
-
-    def mkdir(path):
-        real(path)
-        for name in ("memory.max", "memory.swap.max", "cgroup.procs"):
-            Path(path, name).write_text("")
-        Path(path, "memory.events").write_text("oom 0\noom_kill 0\n")
-
-    monkeypatch.setattr(module.os, "mkdir", mkdir)
-    return tmp_path
-
-
-def test_a_group_beside_ones_own_counts_everything(groups):
-    group = MemoryGroup.of(77, str(groups))
-    folder = groups / "user.slice/rosbeat-77"
-    group.limit(5_000)
-    group.join()
-    found = {path.name: path.read_text() for path in folder.iterdir()}
-    assert found["memory.max"] == "5000"
-    assert found["memory.swap.max"] == found["cgroup.procs"] == "0"
-    assert not group.was_used_up()
-    (folder / "memory.events").write_text("oom 3\noom_kill 2\n")
-    assert group.was_used_up()
-    assert not group.was_used_up()  # until it happens again
-
-
-@pytest.mark.parametrize("counted", ["cpu pids", None])
-def test_where_memory_is_not_counted_there_is_no_group(groups, counted):
-    path = groups / "user.slice/cgroup.subtree_control"
-    path.write_text(counted) if counted else path.unlink()
-    assert MemoryGroup.of(77, str(groups)) is None
-    MemoryGroup.remove(77, str(groups))
-    assert not (groups / "user.slice/rosbeat-77").exists()

@@ -1,21 +1,118 @@
-"""Read CSV tables that a person has saved, and write tables that are safe to open in a spreadsheet.
+"""Write files whole under safe names, and read and write tables that people open in a spreadsheet.
 
-Tables are read in UTF-8, separated by commas, semicolons or tabs. In written tables, no cell is a
-formula: a spreadsheet would run a cell that begins with `=`, `+`, `-` or `@`, whatever a learner
-has put into it. The rules follow OWASP, "CSV Injection", and RFC 4180 for the format.
+Tables are CSV. They are read in UTF-8, separated by commas, semicolons or tabs. In written tables,
+no cell is a formula: a spreadsheet would run a cell that begins with `=`, `+`, `-` or `@`, whatever
+a learner has put into it. The rules follow OWASP, "CSV Injection", and RFC 4180 for the format.
 """
 
 from __future__ import annotations
 
 import csv
 import io
+import os
 import re
+import unicodedata
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
+from uuid import uuid4
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.remarks import printable
+
+#: Characters of a name that a report shows.
+_MOST_SHOWN = 120
+
+
+def printable(name: str, most: int = _MOST_SHOWN) -> str:
+    r"""Return a name without characters that would change a terminal or the direction of text.
+
+    Control, format and unassigned characters (Unicode categories C*) are written as `\u....`.
+    """
+    shown = name[: most + 1]
+    if not shown.isprintable():  # most names are, and the rest takes its time
+        shown = "".join(map(_shown, shown))
+    return shown if len(shown) <= most else shown[: most - 3] + "..."
+
+
+def _shown(one: str) -> str:
+    return f"\\u{ord(one):04x}" if unicodedata.category(one).startswith("C") else one
+
+
+# Files.
+
+#: Characters of a learner's name and id in a file name.
+_MOST_OF_A_NAME = 40
+_DIGEST = 12
+_PLAIN = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
+
+
+def write_whole(path: Path, content: str | bytes) -> bool:
+    r"""Write a file in one step, so that nobody ever sees half of it.
+
+    It is written beside its place, brought to the disk, and then put in place of what is there.
+
+    Args:
+        path: The file. Missing folders are made.
+        content: All of it. Text is written as UTF-8; halves of characters (lone surrogates), which
+            no file can hold, as `\udc80`.
+
+    Returns:
+        Whether the file is another one than before; one that is equal already is not touched.
+
+    Raises:
+        GradingError: If it cannot be written; then what was there is there still.
+    """
+    data = content if isinstance(content, bytes) else content.encode("utf-8", "backslashreplace")
+    try:
+        if path.is_file() and path.read_bytes() == data:
+            return False
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _replace(path, data)
+    except OSError as error:
+        raise GradingError(
+            f"{printable(str(path))} cannot be written: {error.strerror or error}.",
+            "What was there before is there still, and nothing else was harmed.",
+            "Make room, or give another folder, and run the command again; it goes on from there.",
+        ) from error
+    return True
+
+
+def _replace(path: Path, data: bytes) -> None:
+    beside = path.with_name(f".{uuid4().hex}.part")
+    try:
+        with beside.open("xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
+
+
+def file_name(learner: str, name: str = "") -> str:
+    """Return a file name for a learner: small letters, digits, hyphens, underscores; no suffix.
+
+    It depends on this learner alone, so it stays the same whoever else is in the class. Unless the
+    id is such a name already, a digest of it makes the name this learner's own: `Ana`, `ana` and
+    `../ana` are three.
+    """
+    front = _slug(name) if name != learner else ""
+    if len(learner) <= _MOST_OF_A_NAME and _PLAIN.fullmatch(learner):
+        return f"{front}_{learner}" if front else learner
+    digest = sha256(learner.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGEST]
+    # Two underscores, which the name of a plain id never has.
+    return f"{front or _slug(learner) or 'learner'}__{digest}"
+
+
+def _slug(text: str) -> str:
+    spelt = unicodedata.normalize("NFKD", text[: 10 * _MOST_OF_A_NAME])
+    plain = spelt.encode("ascii", "ignore").decode("ascii").lower()
+    return re.sub(r"[^a-z0-9]+", "-", plain)[:_MOST_OF_A_NAME].strip("-")
+
+
+# Tables.
 
 _SEPARATORS = ",;\t"
 #: Characters of one cell; Excel holds 32,767.
