@@ -139,23 +139,14 @@ def refuse_other_place(relative: PurePosixPath, root: Path) -> None:
 
 
 def _meant(relative: PurePosixPath, root: Path) -> PurePosixPath | None:
-    parts = relative.parts
-    if parts[0] == "src":
-        return _inner(parts[1:], root)
+    parts = relative.parts[1:] if relative.parts[0] == "src" else relative.parts
     known = parts[0] == PACKAGE or (root / "src" / parts[0] / "package.xml").is_file()
-    if len(parts) < 2 or not known or (root / parts[0]).exists():
+    if len(parts) < 2 or not known:
         return None
-    return _inner(parts, root) or PurePosixPath("src", *parts)
-
-
-def _inner(parts: tuple[str, ...], root: Path) -> PurePosixPath | None:
-    """Return where a module belongs that was put beside the folder with the modules."""
-    if len(parts) != 2 or not parts[1].endswith(".py") or parts[1] in _BESIDE:
-        return None
-    package = parts[0]
-    if package != PACKAGE and not (root / "src" / package / package).is_dir():
-        return None
-    return PurePosixPath("src", package, package, parts[1])
+    is_module = len(parts) == 2 and parts[1].endswith(".py") and parts[1] not in _BESIDE
+    inner = parts[:1] if is_module else ()
+    meant = PurePosixPath("src", parts[0], *inner, *parts[1:])
+    return None if meant == relative else meant
 
 
 # What is in the cell.

@@ -415,11 +415,6 @@ def test_a_shell_that_ends_is_followed_by_a_new_one(terminals, terminal, seen, c
     assert shown[-1] == "/home/you"
 
 
-def test_jobs_in_the_background(seen):
-    assert seen("sleep 100 &") == ["~$ sleep 100 &", "[1] 1234"]
-    assert seen("kill %1; wait")[-1].startswith("[1]+  Terminated")
-
-
 def test_lines_of_ros_become_records(terminal):
     terminal.type(
         """cat <<END
