@@ -1,7 +1,7 @@
 """Turn what a terminal is sent into lines, remember them, and show them on a page.
 
 A library such as pyte emulates a screen of a fixed width, cell by cell, at 0.2 MB/s. A page needs
-lines of any length and none of the screen, so only what repaints one line is obeyed here.
+lines of any length and none of the screen: of a line that is repainted, the last state.
 """
 
 from __future__ import annotations
@@ -41,10 +41,11 @@ _BOLD, _END = "\x1b[1m", "\x1b[0m"
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _SEQUENCE = re.compile(
-    r"\x1b\[(?P<args>[0-?]*)[ -/]*(?P<final>[@-~])"  # cursor, colour, erasing
+    r"\x1b\[[0-?]*[ -/]*[@-~]"  # cursor, colour, erasing
     r"|\x1b[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)?"  # titles and other strings
     r"|\x1b[ -/]*[0-~]?"
 )
+_OVERSTRUCK = re.compile(r"[^\x08]\x08")  # bold letters of a manual page
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*")
 _QUOTED = re.compile(r"`[^`\n]*`")
 # `textwrap` breaks lines at blanks only: what is to be typed stays in one piece.
@@ -154,35 +155,8 @@ def _settled(text: str) -> str:
     text = text.rstrip("\r")  # the terminal's own way to end a line
     if not _CONTROL.search(text):
         return text
-    cells: list[str] = []
-    column = place = 0
-    while place < len(text):
-        sequence = _SEQUENCE.match(text, place)
-        if sequence:
-            column = _obey(sequence, cells, column)
-            place = sequence.end()
-        else:
-            column = _put(text[place], cells, column)
-            place += 1
-    return "".join(cells).rstrip(" ")
-
-
-def _put(character: str, cells: list[str], column: int) -> int:
-    if character == "\r":
-        return 0
-    if character == "\b":
-        return max(0, column - 1)
-    if _CONTROL.match(character):
-        return column
-    cells[column : column + 1] = character
-    return column + 1
-
-
-def _obey(sequence: re.Match[str], cells: list[str], column: int) -> int:
-    """Do what a control sequence asks, as far as it concerns one line."""
-    if sequence["final"] == "K" and sequence["args"] in ("", "0"):
-        del cells[column:]
-    return column
+    repainted = _OVERSTRUCK.sub("", _SEQUENCE.sub("", text).rpartition("\r")[2])
+    return _CONTROL.sub("", repainted).rstrip(" ")
 
 
 def log_records(lines: Iterable[Line]) -> tuple[LogRecord, ...]:
