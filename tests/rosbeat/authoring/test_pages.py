@@ -237,17 +237,6 @@ def test_an_output_that_cannot_be_repeated_is_refused(text, monkeypatch):
     pages.refuse_unrepeatable(ran(stream("[INFO] [sensor]: 21.5 (0x10)"), result("1")))
 
 
-def test_only_known_metadata_is_written():
-    made = ran(result("1"), tags=["t"], execution={"iopub.status.busy": "now"}, only=None)
-    made.metadata.language_info = {"name": "python", "version": "3.11.7"}
-    made.metadata.widgets = {}
-    pages.keep_known_metadata(made)
-    assert made.cells[0].metadata == {"tags": ["t"]}
-    assert made.metadata == {
-        "language_info": {"name": "python"}, "rosbeat": {"lesson": "00_hear_it"}
-    }  # fmt: skip
-
-
 def tagged(text, *, source="roll()", tags=(pages.UNCOMPARED,), cell_id="a"):
     output = v4.new_output("stream", text=text, name="stdout")
     cell = v4.new_code_cell(source, outputs=[output], metadata={"tags": list(tags)})
