@@ -140,8 +140,9 @@ def refuse_other_place(relative: PurePosixPath, root: Path) -> None:
 
 def _meant(relative: PurePosixPath, root: Path) -> PurePosixPath | None:
     parts = relative.parts[1:] if relative.parts[0] == "src" else relative.parts
-    known = parts[0] == PACKAGE or (root / "src" / parts[0] / "package.xml").is_file()
-    if len(parts) < 2 or not known:
+    if len(parts) < 2:
+        return None
+    if parts[0] != PACKAGE and not (root / "src" / parts[0] / "package.xml").is_file():
         return None
     is_module = len(parts) == 2 and parts[1].endswith(".py") and parts[1] not in _BESIDE
     inner = parts[:1] if is_module else ()
