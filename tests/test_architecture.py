@@ -12,7 +12,6 @@ import subprocess
 import sys
 from functools import cache
 from pathlib import Path
-from textwrap import dedent
 
 import pytest
 
@@ -379,41 +378,3 @@ def test_a_circle_is_noticed_and_one_for_types_is_not():
 )
 def test_a_machine_path_is_noticed(parts):
     assert machine_paths({"README.md": f"fine\n{''.join(parts)}\n"}) != []
-
-
-@pytest.mark.parametrize("line", ["/workspace", "/home/you/work", "a.library", "https://a.b/work"])
-def test_other_paths_are_fine(line):
-    assert machine_paths({"README.md": line}) == []
-
-
-def test_good_sources_get_no_complaint():
-    good = '''
-        """A module."""
-
-        from rosbeat.errors import PictureError
-
-
-        class A:
-            """Hold a number."""
-
-            def f(self, x: int) -> int:
-                """Pass a number on."""
-                return x
-
-            def halve(self, x: int) -> int:
-                """Halve a number.
-
-                Raises:
-                    PictureError: If it is odd.
-                """
-                if x % 2:
-                    raise PictureError("It is odd.")
-                return x // 2
-
-            @property
-            def is_one(self) -> bool:
-                """Return whether it is one."""
-                return True
-    '''
-    sources = {"rosbeat.viz.a": dedent(good), "rosbeat.errors": '"""Errors."""'}
-    assert [rule(sources) for rule in RULES] == [[]] * len(RULES)

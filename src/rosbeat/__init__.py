@@ -39,7 +39,7 @@ __all__ = [
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
 if os.environ.get("NBGRADER_EXECUTION"):
-    import_module("rosbeat.workspace.graded_runs").settle_in()
+    import_module("rosbeat.workspace.place").settle_in()
 # Without loading IPython where there is none.
 if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
     if not os.environ.get("NBGRADER_EXECUTION"):

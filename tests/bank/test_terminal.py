@@ -5,7 +5,7 @@ import pytest
 from bank.terminal import CASES, ROWS
 from bank.workspaces import Desk, typed
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.workspace.meanings import explain, recognise
+from rosbeat.workspace.commands import explain, recognise
 
 
 @pytest.fixture

@@ -1,7 +1,11 @@
-"""What counts as a difference between two outputs, and what no comparison can see."""
+"""What counts as a difference between two outputs, and what no comparison can see.
+
+The checks of a page say something else on an untouched page than on a solved one.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from nbformat import NotebookNode, from_dict
@@ -9,6 +13,8 @@ from nbformat import NotebookNode, from_dict
 from rosbeat.authoring.execution import BACKGROUND
 from rosbeat.authoring.pages import quiet_message, quiet_traceback
 
+#: As an outcome comes with its output; see `rosbeat.exercises.cards`.
+OUTCOME = "application/vnd.rosbeat.outcome+json"
 REPLACING = ("clear_output", "update_display_data")
 
 
@@ -29,6 +35,23 @@ def missing_outputs(cells: list[Any]) -> str:
     if code and not any(cell.outputs for cell in code):
         return "not one code cell has an output."
     return ""
+
+
+def wrong_outcome(cell: Any, outputs: Iterable[Any], *, solved: bool) -> str:
+    """Say what is wrong with the outcome of a check, or nothing.
+
+    Args:
+        cell: The cell that ran; only one that is marked as a check is looked at.
+        outputs: Its outputs.
+        solved: Whether the page is the solved one.
+    """
+    exercise = cell.metadata.get("rosbeat", {}).get("check")
+    if not exercise:
+        return ""
+    found = [one["data"][OUTCOME] for one in outputs if OUTCOME in one.get("data", {})]
+    wanted = (exercise, "passed" if solved else "not attempted")
+    said = [(one["exercise"], one["status"]) for one in found]
+    return "" if said == [wanted] else f"The check should say {wanted}, and says {said}"
 
 
 class Watch:

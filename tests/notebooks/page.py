@@ -10,9 +10,8 @@ import pytest
 from nbval.plugin import IPyNbCell, IPyNbFile
 
 from notebooks.built import Ran, difference, source_of
-from notebooks.comparison import Watch, comparable, missing_outputs
+from notebooks.comparison import Watch, comparable, missing_outputs, wrong_outcome
 from notebooks.kernel import KernelDiedError, WatchedKernel
-from notebooks.outcomes import wrong_outcome
 from rosbeat.errors import LessonError
 from rosbeat.exercises.registry import EXERCISES
 

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import nbformat
 import pytest
-from nbformat.v4 import new_code_cell, new_notebook
+from nbformat.v4 import new_code_cell, new_notebook, new_output
 
-from notebooks.comparison import comparable, missing_outputs
+from notebooks.comparison import OUTCOME, comparable, missing_outputs, wrong_outcome
 from notebooks.plugin import CELL_TIMEOUT
 
 PLUGIN = ("-p", "notebooks.plugin", "-p", "no:cacheprovider", "--collect-only", "-q")
@@ -66,3 +66,30 @@ def test_comparison_leaves_the_originals_alone():
     output = nbformat.v4.new_output("display_data", {"image/png": "AAAA", "text/plain": "x"})
     assert comparable([output])[0].data == {"picture": "a picture", "text/plain": "x"}
     assert "image/png" in output.data
+
+
+CHECK = new_code_cell("check(...)", metadata={"rosbeat": {"check": "03a"}})
+
+
+def said(status, exercise="03a"):
+    data = {"text/plain": "...", OUTCOME: {"exercise": exercise, "status": status}}
+    return new_output("execute_result", data=data)
+
+
+@pytest.mark.parametrize(
+    ("outputs", "right_if_solved"),
+    [
+        ([said("passed")], True),
+        ([said("not attempted")], False),
+        ([], None),
+        ([said("failed")], None),
+        ([said("passed"), said("not attempted")], None),
+        ([said("passed", "03b")], None),
+        ([new_output("stream", text="passed")], None),
+    ],
+)
+def test_a_check_that_says_something_else_is_found(outputs, right_if_solved):
+    for solved in (True, False):
+        wrong = wrong_outcome(CHECK, outputs, solved=solved)
+        assert (wrong == "") is (solved is right_if_solved)
+        assert wrong_outcome(new_code_cell("1"), outputs, solved=solved) == ""

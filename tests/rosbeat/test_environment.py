@@ -63,46 +63,23 @@ def test_what_somebody_set_stays(name):
 
 
 def test_a_domain_that_the_course_chose_is_told_from_a_persons():
-    for environ in ({}, {"ROSBEAT_DOMAIN_ID": "7"}):
-        environment.apply(environ, PREFIX)
-        assert environ["ROSBEAT_DOMAIN_ID"] == environ["ROS_DOMAIN_ID"]
+    environ = {"ROSBEAT_DOMAIN_ID": "7"}
+    environment.apply(environ, PREFIX)
+    assert environ["ROSBEAT_DOMAIN_ID"] == environ["ROS_DOMAIN_ID"]
     environ = {"ROS_DOMAIN_ID": "7"}
     environment.apply(environ, PREFIX)
     assert "ROSBEAT_DOMAIN_ID" not in environ
 
 
-def test_a_workspace_keeps_its_place_before_ours():
-    environ = {"AMENT_PREFIX_PATH": "/home/ada/ws/install/arm"}
-    environment.apply(environ, PREFIX)
-    assert environ["AMENT_PREFIX_PATH"] == f"/home/ada/ws/install/arm{os.pathsep}{PREFIX}"
-
-
-def test_our_prefix_is_recognised_by_another_name(tmp_path):
-    (tmp_path / "real").mkdir()
-    (tmp_path / "link").symlink_to(tmp_path / "real")
-    environ = {"AMENT_PREFIX_PATH": str(tmp_path / "link")}
-    assert "AMENT_PREFIX_PATH" not in environment.apply(environ, str(tmp_path / "real"))
-
-
 def test_a_ros_of_ones_own_keeps_its_middleware_and_distribution(robot):
     environ = {"AMENT_PREFIX_PATH": robot}
+    assert environment.other_ros(environ, robot) == []
+    assert environment.other_ros(environ, PREFIX) == [robot]
     environment.apply(environ, PREFIX)
     assert environ["AMENT_PREFIX_PATH"] == f"{robot}{os.pathsep}{PREFIX}"
     assert "RMW_IMPLEMENTATION" not in environ
     assert "ROS_DISTRO" not in environ
     assert environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
-
-
-def test_the_courses_own_ros_is_not_another_one(robot):
-    assert environment.other_ros({"AMENT_PREFIX_PATH": robot}, robot) == []
-    assert environment.other_ros({"AMENT_PREFIX_PATH": robot}, PREFIX) == [robot]
-
-
-def test_a_profile_under_fast_dds_newer_name_counts_too():
-    environ = {"FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml"}
-    environment.apply(environ, PREFIX)
-    assert PROFILE not in environ
-    assert FROM_PROFILE not in environ
 
 
 @pytest.mark.parametrize(
@@ -111,12 +88,14 @@ def test_a_profile_under_fast_dds_newer_name_counts_too():
         ({}, "1"),
         ({PROFILE: environment.discovery_profile()}, "1"),
         ({PROFILE: "/home/ada/fastdds.xml"}, None),
+        ({"FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml"}, None),
         ({FROM_PROFILE: "0"}, "0"),
     ],
 )
 def test_memory_is_taken_from_no_profile_but_the_courses(environ, wanted):
     environment.apply(environ, PREFIX)
     assert environ.get(FROM_PROFILE) == wanted
+    assert (PROFILE in environ) is ("FASTDDS_DEFAULT_PROFILES_FILE" not in environ)
 
 
 def installed_in(folder):
@@ -161,34 +140,31 @@ def test_terminals_know_where_the_workspace_is(monkeypatch, chosen, parent):
     assert environment.defaults()["ROS2_WORKSPACE"] == expected == str(place.workspace())
 
 
-def test_the_workspace_is_in_the_learners_folder_once_that_is_made(tmp_path):
+@pytest.mark.parametrize(
+    ("folder", "chosen"),
+    [
+        ("my_course", False),
+        ("home/my_course", True),  # who shares the checkout
+        ("notebooks", False),  # in a release
+    ],
+)
+def test_the_workspace_is_in_the_learners_folder_once_that_is_made(
+    tmp_path, monkeypatch, folder, chosen
+):
     module = installed_in(tmp_path / "src")
+    if folder != "my_course":
+        (tmp_path / "my_course" / ".rosbeat").mkdir(parents=True)
+    if chosen:
+        monkeypatch.setenv("ROSBEAT_MY_COURSE", str(tmp_path / folder))
+    if folder == "notebooks":
+        (tmp_path / ".rosbeat-release.json").touch()
+    (tmp_path / folder).mkdir(parents=True)
     assert module.learners_folder() == ""
-    own = tmp_path / "my_course"
-    own.mkdir()
-    assert module.learners_folder() == ""
-    (own / ".rosbeat").mkdir()
-    assert module.learners_folder() == str(own)
-    assert module.defaults(PREFIX)["ROS2_WORKSPACE"] == f"{own}/ROS2_and_RL_Tutorials"
-
-
-def test_a_learner_who_shares_the_checkout_has_a_folder_of_their_own(tmp_path, monkeypatch):
-    module = installed_in(tmp_path / "src")
-    own = tmp_path / "home" / "my_course"
-    monkeypatch.setenv("ROSBEAT_MY_COURSE", str(own))
-    (tmp_path / "my_course" / ".rosbeat").mkdir(parents=True)
-    assert module.learners_folder() == ""
-    (own / ".rosbeat").mkdir(parents=True)
-    assert module.learners_folder() == str(own)
-
-
-def test_the_workspace_of_a_release_is_beside_its_pages(tmp_path):
-    module = installed_in(tmp_path / "src")
-    (tmp_path / ".rosbeat-release.json").touch()
-    (tmp_path / "my_course" / ".rosbeat").mkdir(parents=True)
-    assert module.learners_folder() == ""
-    (tmp_path / "notebooks" / ".rosbeat").mkdir(parents=True)
-    assert module.learners_folder() == str(tmp_path / "notebooks")
+    (tmp_path / folder / ".rosbeat").mkdir()
+    assert module.learners_folder() == str(tmp_path / folder)
+    if not chosen:
+        place = f"{tmp_path / folder}/ROS2_and_RL_Tutorials"
+        assert module.defaults(PREFIX)["ROS2_WORKSPACE"] == place
 
 
 @pytest.mark.parametrize("variable", [None, "COLCON_HOME"])

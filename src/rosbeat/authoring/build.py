@@ -8,7 +8,6 @@ answers that `hint` gives last.
 from __future__ import annotations
 
 import difflib
-import json
 import os
 import re
 import shutil
@@ -22,7 +21,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.lint import check_lessons
@@ -39,8 +37,6 @@ AT_ONCE = 2
 
 _DIFF_LINES = 40
 _LONGEST_LINE = 160
-#: Metadata that editors add to a cell when it is run, folded or scrolled.
-_EDITORS_KEYS = ("collapsed", "execution", "jupyter", "scrolled", "trusted")
 _PICTURE = re.compile(
     rb"(?P<data>data:image/[a-z+]+;base64,)[A-Za-z0-9+/=\\n\s]+"
     rb'|(?P<mime>"image/(?:png|jpeg)": )"[^"]*"'
@@ -77,8 +73,7 @@ class Change:
 
     Attributes:
         path: The file.
-        kind: ``"new"``, ``"changed"`` or ``"stale"``; ``"pictures"`` if only they differ, and
-            ``"opened"`` if a learner's page was opened or run, and says what it said before.
+        kind: ``"new"``, ``"changed"`` or ``"stale"``; ``"pictures"`` if only they differ.
         diff: The first lines of a unified diff.
     """
 
@@ -89,7 +84,7 @@ class Change:
     @property
     def matters(self) -> bool:
         """Tell whether the file says something else, and does not only look different."""
-        return self.kind not in ("pictures", "opened")
+        return self.kind != "pictures"
 
 
 def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> list[Change]:
@@ -223,8 +218,6 @@ def compare(path: Path, content: bytes | None) -> Change | None:
     present = path.read_bytes()
     if present == content:
         return None
-    if _is_only_opened(present, content):
-        return Change(path, "opened")
     old, new = _without_pictures(present), _without_pictures(content)
     return Change(path, "pictures") if old == new else Change(path, "changed", _diff(old, new))
 
@@ -236,22 +229,6 @@ def _without_pictures(page: bytes) -> bytes:
         return match["data"] + b"picture" if match["data"] else match["mime"] + b'"picture"'
 
     return _PICTURE.sub(word, page)
-
-
-def _is_only_opened(present: bytes, content: bytes) -> bool:
-    """Tell whether a page differs only by what JupyterLab adds when it is opened, run and saved."""
-    try:
-        old, new = json.loads(present)["cells"], json.loads(content)["cells"]
-        if any(cell.get("outputs") for cell in new):
-            return False
-        return [_bare(cell) for cell in old] == [_bare(cell) for cell in new]
-    except (ValueError, KeyError, TypeError, AttributeError):
-        return False  # no notebook any more
-
-
-def _bare(cell: dict[str, Any]) -> tuple[object, ...]:
-    metadata = {key: one for key, one in cell["metadata"].items() if key not in _EDITORS_KEYS}
-    return cell["cell_type"], cell["id"], "".join(cell["source"]), metadata
 
 
 def _diff(present: bytes, content: bytes) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from textwrap import wrap
@@ -21,7 +22,7 @@ from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.exercises.scenarios import Answer
 from rosbeat.exercises.share import share
 from rosbeat.records import Outcome
-from rosbeat.workspace import graded_runs
+from rosbeat.workspace.place import GRADED
 from rosbeat.workspace.waiting import counting
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def check(exercise: str = "", answer: Answer = NOTHING) -> Shown:
     if answer is NOTHING:
         answer = _current(found, cells)
     outcome, picture = _judge(found, answer, cells)
-    execution = graded_runs.execution()
+    execution = os.environ.get(GRADED, "")
     if execution:
         return for_nbgrader(outcome, execution)
     if picture is not None:

@@ -14,7 +14,7 @@ from rosbeat.diagnosis.wires import Wire
 from rosbeat.errors import ExerciseError
 from rosbeat.records import Observation, QoS
 from rosbeat.ros.isolation import Deadline
-from rosbeat.workspace.meanings import recognise
+from rosbeat.workspace.commands import recognise
 from rosbeat.workspace.packages import Package, find_packages, read_package
 
 # What `ros` runs answers with, imported when the first one runs.
@@ -186,7 +186,7 @@ class Workspace:
 
 @dataclass(frozen=True)
 class CommandMeaning:
-    """Hold what a command's outcome means, as `workspace.meanings` recognised it on the spot.
+    """Hold what a command's outcome means, as `workspace.commands` recognised it on the spot.
 
     The files that a command was about are gone when the evidence is judged.
 

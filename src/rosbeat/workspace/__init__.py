@@ -12,22 +12,24 @@ Importing it inside IPython registers `%%terminal`, `%terminal` and `%%save`.
 
 - `magics`, `saving_magic`: the three commands, with their options.
 - `terminals/`: `shell` (a bash on a pseudo-terminal, and the thread that reads it), `terminal`
-  (what a page does with one), `output` (from characters to lines, and what is shown of them),
-  `refusals` (commands that are not typed), `environment`, `registry` and `reaper` (what ends all
-  processes).
-- `saving`: a text becomes a file, and the version before is kept. `page_definitions`: what other
-  cells define becomes a part of it.
+  (what a page does with one, and with all of a kernel), `output` (from characters to lines, and
+  what is shown of them, in which colours), `environment`, and `reaper` (what ends all processes).
+- `commands`: which commands are not typed, and what the outcome of the others means, by the rules
+  of `diagnosis.terminal`.
+- `saving`: a text becomes a file, and the version before is kept.
 - `catching_up`: makes what earlier pages leave, where it is missing.
-- `packages`, `setup_script`: what the files of a package say.
-- `meanings`: collects the evidence that `diagnosis.terminal` explains a failed command with.
-- `place`, `graded_runs`: where the workspace is; a page that nbgrader runs.
+- `packages`: what the files of a package say.
+- `place`: where the workspace is, which page this is, and whether nbgrader runs it.
+- `waiting`: what is said while something takes long.
 
 How it works, and why:
 
 - **ptyprocess, and a thread that reads.** A node that runs on must never be held up by a full
   buffer, and pexpect reads only while somebody expects something. The prompt carries an OSC
   escape sequence with the exit code and the folder, so the end of a command is told and never
-  guessed; bash's second prompt carries one that says that it wants more lines.
+  guessed; bash's second prompt carries one that says that it wants more lines. A command that
+  takes this prompt away, such as `exec bash`, never ends for the page: the terminal has to be
+  closed.
 - **Lines, not a screen.** pyte emulates a screen of a fixed width at 0.2 MB/s, where `output`
   reads 68 MB/s on the same machine, and it would wrap long lines. A page follows only what
   repaints one line. Programs that need a whole screen, such as `vim` and `less`, are refused by

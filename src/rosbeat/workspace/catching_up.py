@@ -12,16 +12,19 @@ import sys
 import tempfile
 import textwrap
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
 from rosbeat.errors import WorkspaceError, called_as
-from rosbeat.workspace.packages import find_packages, parse_manifest, read_package
+from rosbeat.workspace.packages import (
+    find_packages,
+    parse_manifest,
+    read_package,
+    with_entry_points,
+)
 from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import save, trouble
-from rosbeat.workspace.setup_script import with_entry_points
 from rosbeat.workspace.terminals.environment import program_environment
 
 _PAGE = re.compile(r"\d\d?")
@@ -84,13 +87,24 @@ def catch_up(page: str, root: Path | None = None) -> Report:
     Raises:
         WorkspaceError: If there is no such page, or the workspace cannot be written.
     """
-    number = _number(page)
+    if not _PAGE.fullmatch(str(page)):
+        raise WorkspaceError(
+            f"There is no page {page!r}.",
+            "`catch_up` creates the files of all pages before the given one.",
+            'Give the number of the page:  workspace.catch_up("05")',
+        )
     base = root or workspace()
+    made: list[str] = []
     try:
         base.mkdir(parents=True, exist_ok=True)
-        return _through(number, base.resolve())
+        for number, stage in STAGES:
+            if int(number) < int(page):
+                made += filter(None, [stage(base.resolve())])
+    except InTheWay as error:
+        return Report(tuple(made), (str(error),))
     except OSError as error:
         raise trouble("The workspace cannot be completed", error) from None
+    return Report(tuple(made))
 
 
 def catch_up_on(page: str) -> None:
@@ -106,28 +120,6 @@ def catch_up_on(page: str) -> None:
         report = catch_up(NEEDS[page])
         if report.made or report.attention:
             print(report)
-
-
-def _through(number: int, root: Path) -> Report:
-    made: list[str] = []
-    for page, stage in STAGES:
-        if int(page) >= number:
-            break
-        try:
-            made += filter(None, [stage(root)])
-        except InTheWay as error:
-            return Report(tuple(made), (str(error),))
-    return Report(tuple(made))
-
-
-def _number(page: str) -> int:
-    if not _PAGE.fullmatch(str(page)):
-        raise WorkspaceError(
-            f"There is no page {page!r}.",
-            "`catch_up` creates the files of all pages before the given one.",
-            'Give the number of the page:  workspace.catch_up("05")',
-        )
-    return int(page)
 
 
 # The stages.
@@ -173,42 +165,24 @@ def package(root: Path) -> str:
 
 
 def _check_place(folder: Path, root: Path) -> None:
-    """Say what is wrong with a package that is half made, of another kind, or lies elsewhere."""
-    found = [one for one in find_packages(root) if one != folder]
-    others = [one for one in found if read_package(one, root).name == PACKAGE]
-    if (folder / PACKAGE / "package.xml").is_file():
-        others.append(folder / PACKAGE)
-    if others:
-        place = others[0].relative_to(root).as_posix()
-        if folder.exists():
+    """Say what is wrong with a package that lies elsewhere, is of another kind, or half made."""
+    for other in find_packages(root):
+        if other != folder and read_package(other, root).name == PACKAGE:
+            place = other.relative_to(root).as_posix()
             raise InTheWay(
-                f"there is a second package {PACKAGE} in {place}, and colcon builds neither of "
-                "them. Keep the one in src, and move the other one out of the workspace."
+                f"a package {PACKAGE} is in {place}, but it belongs in src, and only once. If you "
+                f"have no other, move it there with `mv {place} src/`, in the workspace; or else "
+                "move it out of the workspace."
             )
-        raise InTheWay(
-            f"the package {PACKAGE} is in {place}, but it belongs in src. In the workspace, move "
-            f"it with `mv {place} src/`."
-        )
     if not folder.exists():
         return
-    if not folder.is_dir():
-        raise InTheWay(
-            f"src/{PACKAGE} is a file, but the package needs a folder of that name. "
-            "Rename the file."
-        )
-    if not any(folder.iterdir()):
-        raise InTheWay(
-            f"the folder src/{PACKAGE} already exists and is empty, so `ros2 pkg create` would "
-            f"fail. Remove the folder with `rmdir src/{PACKAGE}`, then run this cell again."
-        )
-    if not (folder / "package.xml").is_file():
-        raise InTheWay(
-            f"the folder src/{PACKAGE} has no package.xml, so it is not a package. Rename the "
-            "folder, then run this cell again and move your files to the new package."
-        )
     manifest = read_package(folder, root).manifest
     if manifest.problem:
-        raise InTheWay(f"src/{PACKAGE}/package.xml cannot be read: {manifest.problem}.")
+        raise InTheWay(
+            f"src/{PACKAGE} is not a package: its package.xml cannot be read "
+            f"({manifest.problem}). Rename it, then run this cell again and move your files to the "
+            "new package."
+        )
     if manifest.build_type != "ament_python":
         raise InTheWay(
             f"the package {PACKAGE} has the build type {manifest.build_type or '(none)'}: it was "
@@ -244,8 +218,6 @@ def node(name: str, page: str) -> Callable[[Path], str]:
 def entry_points(root: Path) -> str:
     """Put the entry points of page 05 into a `setup.py` that has none yet."""
     path = f"src/{PACKAGE}/setup.py"
-    if not (root / path).exists():
-        raise InTheWay(f"{path} does not exist. Page 05 shows the whole file.")
     setup = read_package(root / "src" / PACKAGE, root).setup
     if setup.problem:
         line = f" (line {setup.line})" if setup.line else ""
@@ -257,8 +229,7 @@ def entry_points(root: Path) -> str:
         return ""
     after = None
     if not (setup.entry_points or setup.incomplete):
-        with suppress(UnicodeDecodeError):
-            after = with_entry_points((root / path).read_text(encoding="utf-8"), _SCRIPTS)
+        after = with_entry_points((root / path).read_text(encoding="utf-8"), _SCRIPTS)
     if after is None:
         raise InTheWay(
             f"{path} has no entry point for {_listed(missing)}. The file was not changed, "

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 from IPython.core.error import UsageError
 from IPython.core.magic import no_var_expand
 
-from rosbeat.workspace.terminals.registry import Terminals, terminals_of
+from rosbeat.workspace.terminals.terminal import Terminals, terminals_of
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -113,18 +113,13 @@ def _parse(line: str, in_cell: bool) -> argparse.Namespace:
     Raises:
         UsageError: If it cannot be understood; the text says what can.
     """
-    given, unknown = _parser().parse_known_args(_words(line))
-    if unknown:
-        raise _unknown(unknown[0])
-    _require_sense(given, given.action or "", in_cell)
-    return given
-
-
-def _words(line: str) -> list[str]:
     try:
-        return shlex.split(line)
+        words = shlex.split(line)
     except ValueError:
         raise UsageError(f"A quote is not closed: {line.strip()}\n{_USAGE}") from None
+    given = _parser().parse_args(words)
+    _require_sense(given, given.action or "", in_cell)
+    return given
 
 
 def _parser() -> _Parser:
@@ -155,15 +150,6 @@ def _seconds(text: str) -> float:
     if not 0 <= seconds < float("inf"):
         raise argparse.ArgumentTypeError(f"`{text}` is not a number of seconds, such as 2.5")
     return seconds
-
-
-def _unknown(word: str) -> UsageError:
-    if word.startswith("-"):
-        return UsageError(f"There is no option `{word}`. The options are:\n{_USAGE}")
-    return UsageError(
-        f"The command takes one name, so `{word}` is one word too many. A text with spaces needs "
-        f"quotes.\n{_USAGE}"
-    )
 
 
 def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> None:

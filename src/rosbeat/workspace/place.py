@@ -11,9 +11,12 @@ own, and what it prints names no machine and no person.
 
 from __future__ import annotations
 
+import atexit
 import os
 import re
+import shutil
 import sys
+import tempfile
 from contextlib import suppress
 from pathlib import Path
 
@@ -29,6 +32,9 @@ VARIABLE = "ROS2_WORKSPACE"
 STEADY = "ROSBEAT_STEADY_HOME"
 #: Holds the page's file in a kernel that Jupyter's server has started.
 PAGE = "JPY_SESSION_NAME"
+#: nbgrader says in it why it runs a page: `autograde` or `validate`
+#: (`nbgrader/converters/autograde.py` and `nbgrader/validator.py`).
+GRADED = "NBGRADER_EXECUTION"
 _PAGE_NAME = re.compile(r"(\d\d)_[^/]*$")
 
 
@@ -99,3 +105,30 @@ def page_number() -> str:
 def workspace() -> Path:
     """Return the workspace, whether it exists or not."""
     return workspace_parent() / NAME
+
+
+# A page that nbgrader runs.
+
+
+def settle_in() -> None:
+    """Give this process a home and one stream, if it is the kernel of a page that nbgrader runs.
+
+    nbgrader runs one learner's pages after the other on the instructor's account. Without a home of
+    its own, a page would find what the learner before has saved, and note its outcomes in the
+    instructor's progress. And nbgrader takes anything on stderr for a failure (`nbgrader/utils.py`,
+    `determine_grade`), in whichever cell it happens to arrive; ROS writes every log line there.
+    """
+    if not os.environ.get(GRADED) or os.environ.get(STEADY):
+        return  # the kernel's own processes find it settled
+    folder = tempfile.mkdtemp(prefix="rb-")
+    os.environ[STEADY] = folder
+    atexit.register(_remove, folder, os.getpid())
+    # Both what Python writes and what C code writes.
+    sys.stderr.flush()
+    sys.stderr = sys.stdout
+    os.dup2(1, 2)
+
+
+def _remove(folder: str, owner: int) -> None:
+    if os.getpid() == owner:  # a process that was forked ends long before the page does
+        shutil.rmtree(folder, ignore_errors=True)

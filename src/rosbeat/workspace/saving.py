@@ -8,6 +8,7 @@ from __future__ import annotations
 import errno
 import fcntl
 import os
+import re
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -33,19 +34,12 @@ _MAY_NOT = (
     "You have no permission to write there: the file or its folder is read-only.",
     "Add the permission with `chmod u+w`, or save under another name.",
 )
-_FILE_FOLDER = (
-    "A file has the name that a folder needs, or a folder has the file's name.",
-    "Rename that file or folder, then run the cell again.",
-)
 _MEANINGS = {
     **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), _SPACE),
     **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), _MAY_NOT),
-    **dict.fromkeys((errno.ENOTDIR, errno.EISDIR, errno.EEXIST), _FILE_FOLDER),
-    errno.ENAMETOOLONG: (
-        "The name is longer than this file system allows.",
-        "Choose a shorter name.",
-    ),
 }
+# No file of a ROS package has such a name: a comment behind it, or the `\` of Windows.
+_NOT_A_NAME = re.compile(r"\\|\0|\s#")
 
 
 @dataclass(frozen=True)
@@ -84,7 +78,7 @@ def save(path: str, text: str, root: Path | None = None) -> Saved:
     """
     base = (root or workspace()).resolve()
     relative, target = locate(path, base)
-    content = _bytes(relative, text)
+    content = (text if text.endswith("\n") or not text else f"{text}\n").encode("utf-8")
     try:
         base.mkdir(parents=True, exist_ok=True)
         with only_writer(base):
@@ -110,19 +104,6 @@ def only_writer(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(number)
-
-
-def _bytes(relative: PurePosixPath, text: str) -> bytes:
-    ended = text if text.endswith("\n") or not text else text + "\n"
-    try:
-        return ended.encode("utf-8")
-    except UnicodeEncodeError as error:
-        line = ended.count("\n", 0, error.start) + 1
-        raise WorkspaceError(
-            f"{relative} cannot be saved: line {line} contains an invalid character.",
-            "Only half of a character was pasted, and a file cannot store that.",
-            f"Delete the odd-looking character in line {line} and type it again.",
-        ) from None
 
 
 def _replace(relative: PurePosixPath, target: Path, content: bytes, base: Path) -> Saved:
@@ -228,22 +209,16 @@ def locate(typed: str, root: Path | None = None) -> tuple[PurePosixPath, Path]:
 
 def _relative(typed: str) -> PurePosixPath:
     text = typed.strip().strip("'\"")
-    if not text or "\0" in text:
+    path = PurePosixPath(text)
+    if not path.parts or text.endswith("/") or _NOT_A_NAME.search(text):
         raise WorkspaceError(
-            "`%%save` was called without a path.",
-            "The path is the file in your workspace in which the text is saved.",
+            f"`{text}` is not the path of a file.",
+            "`%%save` needs the file in your workspace in which the text is saved: its parts are "
+            "separated by `/`, and nothing comes after it.",
             f"Write the path after the command:  %%save {_EXAMPLE}",
         )
-    _refuse_more_than_a_path(text)
-    path = PurePosixPath(text)
     if path.is_absolute() or text.startswith("~") or ".." in path.parts:
         raise _outside(typed)
-    if not path.parts or text.endswith("/"):
-        raise WorkspaceError(
-            f"{text} names a folder, not a file.",
-            "`%%save` writes one file.",
-            f"Add the file's name at the end, as in {_EXAMPLE}",
-        )
     if path.parts[0] == NAME:
         raise WorkspaceError(
             f"{text} begins with the workspace itself.",
@@ -251,22 +226,6 @@ def _relative(typed: str) -> PurePosixPath:
             f"Leave out the first part:  {'/'.join(path.parts[1:]) or _EXAMPLE}",
         )
     return path
-
-
-def _refuse_more_than_a_path(text: str) -> None:
-    path, mark, _ = text.partition(" #")
-    if mark:
-        raise WorkspaceError(
-            f"{text} is more than a path.",
-            "The whole line would become the file's name, including the comment.",
-            f"Leave out the comment:  {path.rstrip()}",
-        )
-    if "\\" in text:
-        raise WorkspaceError(
-            f"{text} contains a `\\`.",
-            "On Linux, `/` separates the parts of a path.",
-            f"Write  {text.replace(chr(92), '/')}",
-        )
 
 
 def _outside(typed: str) -> WorkspaceError:

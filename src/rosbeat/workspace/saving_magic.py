@@ -5,9 +5,10 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 from types import CodeType, TracebackType
@@ -18,20 +19,19 @@ from IPython.core.magic import no_var_expand
 from rosbeat.diagnosis.packages import nearest, parse
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace.catching_up import PACKAGE, catch_up
-from rosbeat.workspace.page_definitions import with_definitions
 from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import locate, save
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
+_EXAMPLE = "%%save src/greenhouse/greenhouse/nodes.py --with VentControl"
 _WITH = re.compile(r"(?:^|\s)--with(?:\s|$)")
 # The first page on which the package is expected to exist.
 _PAGE_AFTER_PACKAGE = "03"
 # Files of Python that lie beside the folder with the modules.
 _BESIDE = ("setup.py", "conftest.py")
 _BLANK = re.compile(r"(?<!\w)_{4,}(?!\w)")
-_MAGIC = re.compile(r"^\s*(%%?\w|!|\?)|\?\s*$|^\s*\w+\s*=\s*[%!]")
 _ABSENT = object()
 
 
@@ -47,20 +47,6 @@ def register(shell: InteractiveShell) -> None:
         save_cell(shell, line, cell)
 
     shell.register_magic_function(cell_magic, magic_kind="cell", magic_name="save")
-    if with_body not in shell.input_transformers_cleanup:
-        shell.input_transformers_cleanup.append(with_body)
-
-
-def with_body(lines: list[str]) -> list[str]:
-    """Give a cell that is nothing but `%%save PATH` a body, so that we can say what is missing.
-
-    Without one, IPython itself refuses, and proposes its own `%save`, which is something else.
-
-    Args:
-        lines: The lines of a cell.
-    """
-    alone = len(lines) == 1 and re.match(r"%%save\b", lines[0])
-    return [lines[0].rstrip("\n") + "\n", "\n"] if alone else lines
 
 
 def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
@@ -80,7 +66,12 @@ def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
     path, *wanted = _WITH.split(line, maxsplit=1)
     relative, target = locate(path, root)
     refuse_other_place(relative, root)
-    _refuse_nothing(relative, cell)
+    if not cell.strip():
+        raise WorkspaceError(
+            f"{relative} is not saved: the cell has no text to save.",
+            "The text below the `%%save` line becomes the file.",
+            f"Write the text there. For an empty file, type `touch {relative}` in a terminal.",
+        )
     if relative.suffix == ".py":
         refuse_magics(cell, shell.transform_cell)
     _make_room(relative, root)
@@ -94,15 +85,6 @@ def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
     name = module_name(relative, root)
     if name:
         run_as_module(shell, cell, name, target, f"%%save {line}")
-
-
-def _refuse_nothing(relative: PurePosixPath, cell: str) -> None:
-    if not cell.strip():
-        raise WorkspaceError(
-            f"{relative} is not saved: the cell has no text to save.",
-            "The text below the `%%save` line becomes the file.",
-            f"Write the text there. For an empty file, type `touch {relative}` in a terminal.",
-        )
 
 
 def _make_room(relative: PurePosixPath, root: Path) -> None:
@@ -157,23 +139,15 @@ def refuse_other_place(relative: PurePosixPath, root: Path) -> None:
 
 
 def _meant(relative: PurePosixPath, root: Path) -> PurePosixPath | None:
-    parts = relative.parts
-    if parts[0] == "src":
-        return _inner(parts[1:], root)
-    known = parts[0] == PACKAGE or (root / "src" / parts[0] / "package.xml").is_file()
-    if len(parts) < 2 or not known or (root / parts[0]).exists():
+    parts = relative.parts[1:] if relative.parts[0] == "src" else relative.parts
+    if len(parts) < 2:
         return None
-    return _inner(parts, root) or PurePosixPath("src", *parts)
-
-
-def _inner(parts: tuple[str, ...], root: Path) -> PurePosixPath | None:
-    """Return where a module belongs that was put beside the folder with the modules."""
-    if len(parts) != 2 or not parts[1].endswith(".py") or parts[1] in _BESIDE:
+    if parts[0] != PACKAGE and not (root / "src" / parts[0] / "package.xml").is_file():
         return None
-    package = parts[0]
-    if package != PACKAGE and not (root / "src" / package / package).is_dir():
-        return None
-    return PurePosixPath("src", package, package, parts[1])
+    is_module = len(parts) == 2 and parts[1].endswith(".py") and parts[1] not in _BESIDE
+    inner = parts[:1] if is_module else ()
+    meant = PurePosixPath("src", parts[0], *inner, *parts[1:])
+    return None if meant == relative else meant
 
 
 # What is in the cell.
@@ -193,16 +167,8 @@ def module_name(relative: PurePosixPath, root: Path) -> str | None:
         return None
     inside = relative.relative_to(package).with_suffix("")
     folders = inside.parts[:-1]
-    if not folders or not all(part.isidentifier() for part in inside.parts):
-        return None
-    if folders[0] != package.name and not _all_packages(root / package, folders):
-        return None
-    return ".".join(folders if inside.name == "__init__" else inside.parts)
-
-
-def _all_packages(start: Path, folders: tuple[str, ...]) -> bool:
-    places = [start.joinpath(*folders[: depth + 1]) for depth in range(len(folders))]
-    return all((place / "__init__.py").is_file() for place in places)
+    is_inside = folders[:1] == (package.name,) and all(one.isidentifier() for one in inside.parts)
+    return ".".join(folders if inside.name == "__init__" else inside.parts) if is_inside else None
 
 
 def blank_line(text: str) -> int:
@@ -230,17 +196,102 @@ def refuse_magics(text: str, transform: Callable[[str], str]) -> None:
     Raises:
         WorkspaceError: If a line is a command of the notebook.
     """
-    if is_python(text) or not is_python(transform(text)):
-        return
-    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)
-             if _MAGIC.search(line) and not is_python(line.strip())]  # fmt: skip
-    if lines:
-        number, line = lines[0]
+    if not is_python(text) and is_python(transform(text)):
         raise WorkspaceError(
-            f"Nothing was saved: line {number} of the file would be `{line}`.",
+            "Nothing was saved: the text has a line that only a notebook understands.",
             "Lines with % or ! or ? are notebook commands, which Python on a robot does not have.",
             "Put that line in a separate cell.",
         )
+
+
+# What other cells define, for `--with`.
+
+
+def with_definitions(text: str, names: Sequence[str], cells: Iterable[str]) -> str:
+    """Return a module's text with definitions from a page below its first imports.
+
+    Args:
+        text: The module's own text.
+        names: Classes, functions and variables, in the order in which they are to stand.
+        cells: The cells that ran, the oldest first. The last definition of a name counts.
+
+    Raises:
+        WorkspaceError: If the text is not Python, no name is given, or one is not defined at the
+            top level of any cell.
+    """
+    head, rest = _split(text)
+    known = _definitions(cells)
+    missing = next((name for name in names if name not in known), None)
+    if missing is not None or not names:
+        raise _not_defined(missing, known)
+    # One definition may bind several names, and is copied once.
+    copied = dict.fromkeys(known[name] for name in names)
+    parts = [part.strip("\n") for part in (head, *copied, rest)]
+    return "\n\n\n".join(part for part in parts if part) + "\n"
+
+
+def _split(text: str) -> tuple[str, str]:
+    """Cut a module's text below its docstring and its first imports."""
+    try:
+        body = parse(text).body
+    except (SyntaxError, ValueError) as error:
+        raise WorkspaceError(
+            f"Nothing was saved: the text of this cell is not Python ({error}).",
+            "Definitions from other cells go below its imports, so it has to be readable.",
+            "Correct the line, then run the cell again.",
+        ) from None
+    end = 0
+    for statement in body:
+        is_docstring = isinstance(statement, ast.Expr) and not end
+        if not (is_docstring or isinstance(statement, ast.Import | ast.ImportFrom)):
+            break
+        end = statement.end_lineno or end
+    lines = text.split("\n")
+    return "\n".join(lines[:end]), "\n".join(lines[end:])
+
+
+def _definitions(cells: Iterable[str]) -> dict[str, str]:
+    """Return the source of the last definition of each name at the top level of a cell."""
+    found: dict[str, str] = {}
+    for cell in cells:
+        try:
+            body = parse(cell).body
+        except (SyntaxError, ValueError):
+            continue
+        lines = cell.split("\n")
+        for statement in body:
+            decorators = getattr(statement, "decorator_list", ())
+            first = min(one.lineno for one in (statement, *decorators))
+            source = "\n".join(lines[first - 1 : statement.end_lineno])
+            found.update(dict.fromkeys(_bound(statement), source))
+    return found
+
+
+def _bound(statement: ast.stmt) -> list[str]:
+    """Return the names that a definition or an assignment binds."""
+    if isinstance(statement, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+        return [statement.name]
+    if isinstance(statement, ast.Assign | ast.AnnAssign):
+        targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+        parts = (part for target in targets for part in ast.walk(target))
+        names = [part for part in parts if isinstance(part, ast.Name)]
+        return [part.id for part in names if isinstance(part.ctx, ast.Store)]
+    return []
+
+
+def _not_defined(name: str | None, known: Iterable[str]) -> WorkspaceError:
+    if name is None:
+        return WorkspaceError(
+            "`--with` was given no name.",
+            "It copies what you name from the cells that have run on this page.",
+            f"Write the names after it:  {_EXAMPLE}",
+        )
+    meant = nearest(name, sorted(known))
+    return WorkspaceError(
+        f"Nothing was saved: no cell that has run on this page defines `{name}`.",
+        "`--with` copies classes, functions and variables from these cells.",
+        f"Did you mean `{meant}`?" if meant else "Run the cell that defines it, then this one.",
+    )
 
 
 # Running a module's text on the page, without its `main`.

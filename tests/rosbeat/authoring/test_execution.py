@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from rosbeat.authoring import execution, pages
-from rosbeat.authoring.execution import OwnInterpreter, kernel_place
+from rosbeat.authoring.execution import kernel_place
 from rosbeat.domains import PRIVATE_IDS
 from rosbeat.errors import LessonError
 
@@ -91,18 +91,6 @@ def wait_for_text(path, seconds=30.0):
 
 
 # The kernel.
-
-
-def test_every_kernel_name_means_this_interpreter():
-    assert OwnInterpreter().get_kernel_spec("anything").argv[0] == sys.executable
-
-
-def test_what_pytest_and_terminals_add_to_the_environment_stays_behind(monkeypatch):
-    monkeypatch.setenv("PYTEST_CURRENT_TEST", "x")
-    monkeypatch.setenv("COLUMNS", "20")
-    with kernel_place() as place:
-        assert "PYTEST_CURRENT_TEST" not in place.environment
-        assert "COLUMNS" not in place.environment
 
 
 def test_each_kernel_has_an_empty_workspace_and_a_domain_of_its_own(monkeypatch):

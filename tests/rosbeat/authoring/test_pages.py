@@ -10,12 +10,9 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from nbformat import v4
 
 from rosbeat.authoring import pages
-from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.pages import notebook_page, solution_page
 from rosbeat.authoring.source import Course, read_lesson
 from rosbeat.errors import LessonError
@@ -40,10 +37,6 @@ def test_the_learners_page_is_golden(lesson):
 def test_the_solution_page_is_golden_outputs_included(lesson, tmp_path):
     made = pages.to_bytes(pages.solution_page(lesson, tmp_path))
     assert made == (GOLDEN.solutions / NAME).read_bytes()
-
-
-def test_the_golden_lesson_keeps_every_rule(lesson):
-    assert check_lessons(GOLDEN, [lesson], [lesson]) == []
 
 
 def test_one_changed_sentence_is_one_changed_line_in_each_page(lesson, tmp_path):
@@ -77,11 +70,6 @@ def test_a_page_ends_with_links_to_its_neighbours_and_the_whole_course(course, m
     assert say.source == "← [00 Hear it](00_hear_it.ipynb) | [The whole course](home.ipynb)"
     assert home.source == "# Find your way"
     assert (hear.cell_type, hear.id, say.id) == ("markdown", "neighbours-00", "neighbours-01")
-
-
-def test_a_page_that_is_alone_has_no_links(course):
-    (alone,) = notebook_page(course[0], lessons=course[:1]).cells
-    assert alone.source == "# Hear it"
 
 
 MAGICS = """
@@ -203,27 +191,11 @@ def result(text):
     return v4.new_output("execute_result", {"text/plain": text}, execution_count=1)
 
 
-CHUNKS = st.lists(
-    st.tuples(
-        st.text(alphabet="ab\n", min_size=1, max_size=4), st.sampled_from(["stdout", "stderr"])
-    )
-)
-
-
-@given(CHUNKS)
-def test_chunks_become_one_text_per_stream_whatever_the_pieces(chunks):
-    outputs = outputs_after(pages.merge_streams, ran(*(stream(*chunk) for chunk in chunks)))
-    expected = {
-        name: "".join(text for text, other in chunks if other == name)
-        for name in ("stdout", "stderr")
-    }
-    assert [(o.name, o.text) for o in outputs] == [(n, t) for n, t in expected.items() if t]
-
-
-def test_streams_are_not_moved_past_other_outputs():
-    page = ran(stream("a"), result("1"), stream("b"), stream("c"))
+def test_chunks_become_one_text_per_stream_between_two_other_outputs():
+    chunks = [stream("!", "stderr"), stream("b"), stream(""), stream("c")]
+    page = ran(stream("a"), result("1"), *chunks)
     outputs = outputs_after(pages.merge_streams, page)
-    assert [output.get("text", "result") for output in outputs] == ["a", "result", "bc"]
+    assert [output.get("text", "result") for output in outputs] == ["a", "result", "bc", "!"]
 
 
 def test_a_failure_keeps_its_message_and_loses_its_frames():
@@ -265,17 +237,6 @@ def test_an_output_that_cannot_be_repeated_is_refused(text, monkeypatch):
     pages.refuse_unrepeatable(ran(stream("[INFO] [sensor]: 21.5 (0x10)"), result("1")))
 
 
-def test_only_known_metadata_is_written():
-    made = ran(result("1"), tags=["t"], execution={"iopub.status.busy": "now"}, only=None)
-    made.metadata.language_info = {"name": "python", "version": "3.11.7"}
-    made.metadata.widgets = {}
-    pages.keep_known_metadata(made)
-    assert made.cells[0].metadata == {"tags": ["t"]}
-    assert made.metadata == {
-        "language_info": {"name": "python"}, "rosbeat": {"lesson": "00_hear_it"}
-    }  # fmt: skip
-
-
 def tagged(text, *, source="roll()", tags=(pages.UNCOMPARED,), cell_id="a"):
     output = v4.new_output("stream", text=text, name="stdout")
     cell = v4.new_code_cell(source, outputs=[output], metadata={"tags": list(tags)})
@@ -312,7 +273,7 @@ def test_another_kind_of_output_is_stored(stored):
     assert rebuilt(stored, failed) is None
 
 
-@pytest.mark.parametrize("content", [None, b"", b"{", b"\xff\xfe"])
+@pytest.mark.parametrize("content", [None, b"{"])
 def test_a_page_that_cannot_be_read_has_nothing_to_keep(tmp_path, content):
     path = tmp_path / "page.ipynb"
     if content is not None:

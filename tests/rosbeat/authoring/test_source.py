@@ -58,7 +58,7 @@ def test_what_the_format_does_not_know_is_refused(checkout, body, message):
         checkout.lesson(body)
 
 
-@pytest.mark.parametrize("name", ["hear", "0_hear", "00_Hear", "00-hear", "00_"])
+@pytest.mark.parametrize("name", ["hear", "00_Hear", "00-hear"])
 def test_a_file_has_a_number_and_a_name(checkout, name):
     with pytest.raises(LessonError, match="NN_slug"):
         read_lesson(checkout.write("", name=name))
@@ -80,8 +80,8 @@ def test_a_header_is_read(tmp_path):
 
 @pytest.mark.parametrize(
     ("line", "replacement"),
-    [(0, "# %%"), (5, "#"), (1, "# titel: x"), (1, "title: x"), (2, "# title: twice"),
-     (2, "# minutes: ten"), (3, "# needs: 00"), (3, "# needs: [first]"), (4, "# summary:")],
+    [(0, "# %%"), (5, "#"), (1, "# titel: x"), (2, "# minutes: ten"), (3, "# needs: [first]"),
+     (4, "# summary:")],
 )  # fmt: skip
 def test_a_wrong_line_of_a_header_is_named(tmp_path, line, replacement):
     path = tmp_path / "04_hear_it.py"
@@ -89,12 +89,6 @@ def test_a_wrong_line_of_a_header_is_named(tmp_path, line, replacement):
     with pytest.raises(LessonError, match=rf"^04_hear_it.py:{line + 1}: the header has") as caught:
         read_lesson(path)
     assert "# minutes: 40" in caught.value.to_try
-
-
-def test_an_empty_file_has_no_header(tmp_path):
-    (tmp_path / "04_hear_it.py").touch()
-    with pytest.raises(LessonError, match=r"04_hear_it.py:1: the header has ''"):
-        read_lesson(tmp_path / "04_hear_it.py")
 
 
 # Ids.
@@ -115,12 +109,6 @@ def test_a_sentence_further_down_does_not_change_the_id(checkout):
     before = ids(checkout, "# %% [markdown]\n# Opening.\n# One.")
     assert before == ids(checkout, "# %% [markdown]\n# Opening.\n# Two.")
     assert before != ids(checkout, "# %% [markdown]\n# Another.\n# One.")
-
-
-def test_a_new_cell_leaves_the_ids_of_others_alone(checkout):
-    before = ids(checkout, "# %%\na = 1\n\n# %%\nb = 2")
-    after = ids(checkout, "# %%\na = 1\n\n# %%\nc = 3\n\n# %%\nb = 2")
-    assert [*after[:2], after[3]] == before
 
 
 # Answers and blanks.
@@ -173,12 +161,6 @@ def test_a_blank_with_fewer_lines_than_its_answer_says_how_many_are_wanted(answe
     assert source.with_blanks(text) == shown
 
 
-def test_the_source_runs_with_the_answer_in_force():
-    names: dict = {}
-    exec(TEXT, names)
-    assert names["A"]().f() == 1
-
-
 GOOD = "# --- answer\nx = 1\n# --- blank\n# ____\n# --- end"
 
 
@@ -186,20 +168,15 @@ GOOD = "# --- answer\nx = 1\n# --- blank\n# ____\n# --- end"
     ("text", "line", "message"),
     [
         ("# --- answer\nx = 1", 10, "not a marker of a complete block"),
-        ("# --- answer\nx = 1\n# --- blank\n# ____", 10, "complete block"),
         (f"# --- answer\n{GOOD}", 11, "complete block"),
         (f"{GOOD}\n# --- answer\nx = 2\n# --- end", 15, "complete block"),
         ("# --- blank", 10, "complete block"),
         (f"{GOOD}\n# --- end", 15, "complete block"),
         ("# --- Answer", 10, "'# --- Answer' is not a marker"),
-        ("#--- answer", 10, "complete block"),
-        ("# ---- answer", 10, "complete block"),
         ("# --- answer here", 10, "complete block"),
         (GOOD.replace("x = 1", "# --- END"), 11, "complete block"),
         (GOOD.replace("# ____", "# ____\n# --- blank"), 14, "complete block"),
         (GOOD.replace("x = 1\n", ""), 10, "no answer"),
-        (GOOD.replace("x = 1", ""), 10, "no answer"),
-        (GOOD.replace("# ____\n", ""), 10, "has no ____"),
         (GOOD.replace("____", "x = 2"), 10, "has no ____"),
         (GOOD.replace("# ____", "x = ____"), 10, "complete block"),
         (GOOD.replace("# ____", "    # ____"), 10, "complete block"),
@@ -234,13 +211,10 @@ def test_both_pages_parse_whatever_is_nested_around(parts):
 # Courses.
 
 
-def test_a_course_is_found_from_anywhere_inside(checkout):
+def test_a_course_is_found_from_anywhere_inside(checkout, tmp_path_factory):
     assert find_course(checkout.course.sources) == checkout.course
-
-
-def test_outside_of_a_course_the_cure_is_said(tmp_path):
     with pytest.raises(LessonError, match="no lessons are found") as caught:
-        find_course(tmp_path)
+        find_course(tmp_path_factory.mktemp("outside"))
     assert "--root" in caught.value.to_try
 
 

@@ -18,7 +18,6 @@ import pytest
 from notebooks.kernel import WatchedKernel
 from parsed_html import Shown
 from rosbeat import cli, progress
-from rosbeat.authoring.build import compare
 from rosbeat.exercises import progress as file
 from rosbeat.exercises.exercise import failed, passed
 from rosbeat.exercises.progress import (
@@ -380,8 +379,12 @@ def test_the_home_page_is_brought_up_to_date_and_changed_nowhere_else(own_home, 
     (data,) = stored(own_home)
     assert "Passed: 00a. Not there yet: 00b." in data["text/plain"]
     assert "✓ 00a" in data["text/html"]
-    nbformat.validate(nbformat.read(own_home, as_version=4))
-    assert compare(own_home, HOME.read_bytes()).kind == "opened"
+    page = nbformat.read(own_home, as_version=4)
+    nbformat.validate(page)
+    for cell in page.cells:
+        if cell.cell_type == "code":
+            cell.update(outputs=[], execution_count=None)
+    assert page == nbformat.read(HOME, as_version=4)
     assert capsys.readouterr().out == ""
 
 

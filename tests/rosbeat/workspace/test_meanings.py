@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from rosbeat.workspace import catch_up
 from rosbeat.workspace.catching_up import NODES, PACKAGE, finished, run_command
-from rosbeat.workspace.meanings import explain
+from rosbeat.workspace.commands import explain
 
 RUN = f"ros2 run {PACKAGE} temperature_publisher"
 ENTRY = f"{PACKAGE}.temperature_publisher:main"

@@ -136,8 +136,6 @@ TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name
         *((imported(f"name='p', entry_points={given}"),
            lambda setup: (setup.entry_points, setup.incomplete, setup.problem), ((), True, ""))
           for given in ("{'console_scripts': names()}", "{}, **more", "['a = b:c']")),
-        (scripts("*others,", "'b = p.b:main',"),
-         lambda setup: (parts(setup), setup.incomplete), ([("b", "p.b", "main", False)], True)),
         # Data files are missing only if all of them are known.
         *((imported(f"name='p', data_files={files}"), lambda setup: setup.left_out, missing)
           for files, missing in (("[]", ("resource/p", "package.xml")), ("unknown()", ()),
@@ -197,7 +195,7 @@ def test_what_is_calculated_is_found_by_running_it(setup_of, answer):
 
 
 def test_a_script_that_does_not_end_is_given_up(setup_of, monkeypatch):
-    monkeypatch.setattr("rosbeat.workspace.setup_script._DEADLINE", 0.3)
+    monkeypatch.setattr("rosbeat.workspace.packages._DEADLINE", 0.3)
     setup = setup_of("while True: pass\n" + HEAD + "'console_scripts': [f'a = {package_name}']})\n")
     assert (setup.package_name, setup.incomplete) == ("p", True)
 

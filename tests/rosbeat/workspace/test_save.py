@@ -15,7 +15,6 @@ from rosbeat.errors import WorkspaceError
 from rosbeat.workspace import saving
 from rosbeat.workspace.catching_up import PACKAGE, finished
 from rosbeat.workspace.saving import only_writer, save
-from rosbeat.workspace.saving_magic import with_body
 
 PUBLISHER = f"src/{PACKAGE}/{PACKAGE}/temperature_publisher.py"
 MODULE = f"{PACKAGE}.temperature_publisher"
@@ -46,9 +45,7 @@ def refuse(code):
 # Files.
 
 
-@pytest.mark.parametrize(
-    "typed", ["src/a.py", " src/a.py ", "'src/a.py'", "./src/a.py", "src//a.py"]
-)
+@pytest.mark.parametrize("typed", ["src/a.py", " 'src/a.py' ", "./src//a.py"])
 def test_one_file_written_in_many_ways_with_its_folders(root, typed):
     assert str(save(typed, "hello", root)) == "saved src/a.py"
     assert inside(root) == ["src/a.py"]
@@ -136,13 +133,6 @@ def test_what_the_system_refuses_changes_nothing(root, says, monkeypatch, code, 
     assert [one for one in inside(root / "src") if one != "a.py"] == []
 
 
-def test_half_a_character_is_explained(root, says):
-    with pytest.raises(WorkspaceError) as caught:
-        save("src/a.py", "x = 1\ny = '\ud800'\n", root)
-    says(caught.value, "line 2")
-    assert inside(root) == []
-
-
 def test_one_waits_for_the_other(root):
     with futures.ThreadPoolExecutor(1) as page:
         with only_writer(root):
@@ -172,7 +162,7 @@ def test_a_module_is_saved_and_runs_and_the_page_is_itself_again(run, root, shel
     assert MODULE not in sys.modules
 
 
-@pytest.mark.parametrize("raises", ["1 / 0", "raise SystemExit", "raise KeyboardInterrupt", "def"])
+@pytest.mark.parametrize("raises", ["raise SystemExit", "raise KeyboardInterrupt", "def"])
 def test_it_is_itself_after_an_error_too(run, root, shell, raises):
     result, _ = run(f"%%save {PUBLISHER}\nx = 1\n{raises}\n")
     assert not result.success
@@ -181,16 +171,12 @@ def test_it_is_itself_after_an_error_too(run, root, shell, raises):
     assert (root / PUBLISHER).read_text() == f"x = 1\n{raises}\n"
 
 
-@pytest.mark.parametrize(
-    "body",
-    [
+def test_python_works_as_in_a_file(run):
+    body = (
         "from __future__ import annotations\nfrom dataclasses import dataclass\n\n@dataclass\n"
-        "class Reading:\n    celsius: float\n",
-        'x = 7\ny = (x\n  % 2)\nz = """\n%time\n"""\n',
-        "__all__ = ['____init____']\n",  # no blank
-    ],
-)
-def test_python_works_as_in_a_file(run, body):
+        "class Reading:\n    celsius: float\n\n__all__ = ['____init____']\n"
+        'x = 7\ny = (x\n  % 2)\nz = """\n%time\n"""\n'
+    )
     result, shown = run(f"%%save {PUBLISHER}\n{body}")
     assert result.success
     assert shown.startswith("saved")
@@ -221,23 +207,18 @@ def test_an_error_shows_the_cell_s_own_lines_and_none_of_ours(run, root, body, l
 @pytest.mark.parametrize(
     ("cell", "parts"),
     [
-        *((f"%%save {PUBLISHER}\nx = 1\n{line}\n", ["line 2", "a separate cell"])
-          for line in ("%time 3", "!ls", "x = !ls", "print?", "%%time")),
-        *((f"%%save {PUBLISHER}{body}", ["the cell has no text to save"])
-          for body in ("", "\n", "\n\n  \n")),
+        *((f"%%save {PUBLISHER}\nx = 1\n{line}\n", ["a separate cell"])
+          for line in ("%time 3", "x = !ls", "print?")),
+        (f"%%save {PUBLISHER}\n\n  \n", ["the cell has no text to save"]),
         *((f"%%save {line}\nx = 1\n", ["What it means", "What to try"])
-          for line in ("", "../a.py", "src/sensor_simulater/a.py")),
+          for line in ("", "src", "../a.py", f"{PUBLISHER} # my file", PUBLISHER[:9] + "\\a.py")),
         ("%%save src/sensor_simulater/a.py\nx\n", ["Did you mean sensor_simulator?"]),
         *((f"%%save {typed}\nx = 1\n", [text]) for typed, text in (
-            (f"{PUBLISHER} # my file", f"Leave out the comment:  {PUBLISHER}"),
-            (PUBLISHER.replace("/", "\\"), PUBLISHER),
             (f"{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
-            (f"{PACKAGE}/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
             (f"src/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
             (f"{PACKAGE}/setup.py", f"Did you mean src/{PACKAGE}/setup.py?"),
             (f"ROS2_and_RL_Tutorials/{PUBLISHER}", f"Leave out the first part:  {PUBLISHER}"),
             ("other/other/a.py", "Did you mean src/other/other/a.py?"),
-            ("other/a.py", "Did you mean src/other/other/a.py?"),
             ("src/other/a.py", "Did you mean src/other/other/a.py?"),
             ("linked/a.py", "kept is not a folder for your files"))),
     ],
@@ -251,7 +232,6 @@ def test_what_is_not_saved_is_explained_and_nothing_changes(run, root, cell, par
     result, shown = run(cell)
     assert not result.success
     assert [part for part in parts if part not in shown] == []
-    assert "line magic" not in shown
     assert (sorted(root.rglob("*")), (root / PUBLISHER).read_text()) == (before, text)
 
 
@@ -310,7 +290,7 @@ def test_what_cannot_be_copied_is_explained_and_nothing_is_saved(run, root, cell
     assert (root / PUBLISHER).read_text() == before
 
 
-@pytest.mark.parametrize("name", ["setup.py", "setup.cfg", "test/test_more.py", "package.xml"])
+@pytest.mark.parametrize("name", ["setup.py", "test/test_more.py", "package.xml"])
 def test_other_files_are_only_saved(run, root, name):
     result, shown = run(f"%%save src/{PACKAGE}/{name}\nthis is = no code: at all\n")
     assert result.success
@@ -323,16 +303,12 @@ def test_other_files_are_only_saved(run, root, name):
     [
         (f"src/{PACKAGE}/{PACKAGE}/deep/node.py", f"{PACKAGE}.deep.node"),
         (f"src/{PACKAGE}/{PACKAGE}/__init__.py", PACKAGE),
-        (f"src/{PACKAGE}/second/a.py", "second.a"),
         (f"src/{PACKAGE}/{PACKAGE}/a-b.py", None),
-        (f"src/{PACKAGE}/no_package/a.py", None),
         (f"src/{PACKAGE}/test/test_a.py", None),
         ("scripts/a.py", None),
     ],
 )
-def test_which_files_are_modules(run, shell, package, path, name):
-    (package / "second").mkdir()
-    (package / "second" / "__init__.py").touch()
+def test_which_files_are_modules(run, shell, path, name):
     assert run(f"%%save {path}\nseen = __name__\n")[0].success
     assert shell.user_ns.get("seen") == name
 
@@ -359,7 +335,7 @@ def test_a_package_that_is_half_made_is_not_filled(run, package):
     package.mkdir()
     result, shown = run(f"%%save {PUBLISHER}\nx = 1\n")
     assert not result.success
-    assert "rmdir" in shown
+    assert "is not a package" in shown
     assert list(package.iterdir()) == []
 
 
@@ -376,9 +352,3 @@ def test_a_fault_of_a_saved_class_points_at_the_cell_s_line(run, shell):
     assert [fault.line] == line
     assert fault.code == "msg.value = self.temperature"
     linecache.checkcache()
-
-
-def test_other_cells_of_one_line_stay_as_they_are():
-    for line in ("x = 1\n", "%%saved a\n", "%save a\n"):
-        assert with_body([line]) == [line]
-    assert with_body(["%%save a"]) == ["%%save a\n", "\n"]

@@ -1,6 +1,5 @@
 """Terminals in a page: a real bash on a pseudo-terminal, typed into by cells."""
 
-from rosbeat.workspace.terminals.registry import Terminals, terminal, terminals_of
-from rosbeat.workspace.terminals.terminal import Terminal
+from rosbeat.workspace.terminals.terminal import Terminal, Terminals, terminal, terminals_of
 
 __all__ = ["Terminal", "Terminals", "terminal", "terminals_of"]

@@ -1,20 +1,25 @@
 """Turn what a terminal is sent into lines, remember them, and show them on a page.
 
 A library such as pyte emulates a screen of a fixed width, cell by cell, at 0.2 MB/s. A page needs
-lines of any length and none of the screen, so only what repaints one line is obeyed here.
+lines of any length and none of the screen: of a line that is repainted, the last state.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 import textwrap
 from collections import deque
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from itertools import islice
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from rosbeat.records import LogRecord
-from rosbeat.workspace.terminals.colours import Remark, Typed
+
+if TYPE_CHECKING:
+    from pygments.lexer import Lexer
+    from pygments.token import _TokenType
 
 #: Characters after which a line is cut; the rest of it is counted.
 LONGEST_LINE = 20_000
@@ -27,12 +32,20 @@ WIDTH = 100
 
 Show = Callable[[str], None]
 
+PROMPT, REMARK = "#008a67", "#0076ed"
+STRING, VARIABLE, WORD, QUIET = "#be5f00", "#a245ff", "#3d6dff", "#7b7b7b"
+
+#: A prompt: up to the first `$ ` or `> `; see `environment.prompt`.
+_PROMPT = re.compile(r".*?[$>] ")
+_BOLD, _END = "\x1b[1m", "\x1b[0m"
+
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _SEQUENCE = re.compile(
-    r"\x1b\[(?P<args>[0-?]*)[ -/]*(?P<final>[@-~])"  # cursor, colour, erasing
+    r"\x1b\[[0-?]*[ -/]*[@-~]"  # cursor, colour, erasing
     r"|\x1b[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)?"  # titles and other strings
     r"|\x1b[ -/]*[0-~]?"
 )
+_OVERSTRUCK = re.compile(r"[^\x08]\x08")  # bold letters of a manual page
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*")
 _QUOTED = re.compile(r"`[^`\n]*`")
 # `textwrap` breaks lines at blanks only: what is to be typed stays in one piece.
@@ -142,35 +155,8 @@ def _settled(text: str) -> str:
     text = text.rstrip("\r")  # the terminal's own way to end a line
     if not _CONTROL.search(text):
         return text
-    cells: list[str] = []
-    column = place = 0
-    while place < len(text):
-        sequence = _SEQUENCE.match(text, place)
-        if sequence:
-            column = _obey(sequence, cells, column)
-            place = sequence.end()
-        else:
-            column = _put(text[place], cells, column)
-            place += 1
-    return "".join(cells).rstrip(" ")
-
-
-def _put(character: str, cells: list[str], column: int) -> int:
-    if character == "\r":
-        return 0
-    if character == "\b":
-        return max(0, column - 1)
-    if _CONTROL.match(character):
-        return column
-    cells[column : column + 1] = character
-    return column + 1
-
-
-def _obey(sequence: re.Match[str], cells: list[str], column: int) -> int:
-    """Do what a control sequence asks, as far as it concerns one line."""
-    if sequence["final"] == "K" and sequence["args"] in ("", "0"):
-        del cells[column:]
-    return column
+    repainted = _OVERSTRUCK.sub("", _SEQUENCE.sub("", text).rpartition("\r")[2])
+    return _CONTROL.sub("", repainted).rstrip(" ")
 
 
 def log_records(lines: Iterable[Line]) -> tuple[LogRecord, ...]:
@@ -258,3 +244,99 @@ def say(show: Show, text: str) -> None:
         parts = textwrap.wrap(held, WIDTH - 2, break_long_words=False, break_on_hyphens=False)
         for part in parts or [""]:
             show(Remark(f"# {part.replace(_HELD, ' ')}".rstrip()))
+
+
+# Colours of prompt, command, output and remarks of the course.
+#
+# A cell prints while the command runs, so colours are control sequences in what is printed, which
+# Jupyter turns into HTML, in notebooks that are not trusted as well. HTML of our own would have to
+# replace itself line by line, and such outputs cannot be compared.
+#
+# Control sequences do not know whether the page is light or dark. Each colour here has a contrast
+# of at least 4.3:1 against the white page of JupyterLab and against its dark one (#111111); one
+# colour cannot have more than 4.35:1 against both. What programs print keeps the colour of the
+# page.
+
+
+class Typed(str):
+    """Hold a line that was typed: a prompt and a command, or a key such as `^C`."""
+
+    __slots__ = ()
+
+
+class Remark(str):
+    """Hold a line that the course says."""
+
+    __slots__ = ()
+
+
+def print_line(line: str) -> None:
+    """Print a line of a terminal; in colour if Jupyter shows what is printed.
+
+    Args:
+        line: A `Typed`, a `Remark`, or text that a program printed.
+    """
+    print(coloured(line) if _is_page() else line)
+
+
+def coloured(line: str) -> str:
+    """Return a line with control sequences for its colours; without them it is the same.
+
+    Args:
+        line: A `Typed`, a `Remark`, or text that a program printed.
+    """
+    if isinstance(line, Remark):
+        return _in(REMARK, line)
+    if not isinstance(line, Typed):
+        return line
+    found = _PROMPT.match(line)
+    if found is None:
+        return _in(PROMPT, line)
+    return _in(PROMPT, found[0]) + _command(line[found.end() :])
+
+
+def _is_page() -> bool:
+    """Return whether what is printed goes to a notebook, and not into a file or a test."""
+    return type(sys.stdout).__module__ == "ipykernel.iostream"
+
+
+def _command(text: str) -> str:
+    """Return a command in bold, with the colours of its strings, variables and words of bash."""
+    colour, parts = "", []
+    for kind, part in _lexer().get_tokens(text):
+        wanted = _colour(kind) if part.strip() else colour
+        parts += [part] if wanted == colour else [_ink(wanted), part]
+        colour = wanted
+    return f"{_BOLD}{''.join(parts)}{_END}"
+
+
+def _in(colour: str, text: str) -> str:
+    return f"{_ink(colour)}{text}{_END}"
+
+
+def _ink(colour: str) -> str:
+    """Return the control sequence for a colour; for no colour, the one for the page's own."""
+    if not colour:
+        return "\x1b[39m"
+    red, green, blue = (int(colour[at : at + 2], 16) for at in (1, 3, 5))
+    return f"\x1b[38;2;{red};{green};{blue}m"
+
+
+def _colour(kind: _TokenType) -> str:
+    from pygments.token import Comment, Keyword, Name, String
+
+    if kind in Comment:
+        return QUIET
+    if kind in String.Interpol or kind in Name.Variable:
+        return VARIABLE
+    if kind in String:
+        return STRING
+    return WORD if kind in Keyword or kind in Name.Builtin else ""
+
+
+@lru_cache(maxsize=1)
+def _lexer() -> Lexer:
+    from pygments.lexers.shell import BashLexer
+
+    # A blank or an empty line at either end belongs to the command.
+    return BashLexer(stripnl=False, ensurenl=False)

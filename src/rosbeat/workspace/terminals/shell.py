@@ -14,7 +14,6 @@ import re
 import select
 import shutil
 import signal
-import termios
 import threading
 import time
 import warnings
@@ -26,7 +25,7 @@ from pathlib import Path
 from ptyprocess import PtyProcess, PtyProcessError
 
 from rosbeat.errors import TerminalError
-from rosbeat.workspace.terminals.environment import STARTUP, Polish, terminal_environment
+from rosbeat.workspace.terminals.environment import Polish, terminal_environment
 from rosbeat.workspace.terminals.output import History, Line, LineBuilder
 
 #: The states of a shell: it waits for a command, waits for more of one, runs one, has ended.
@@ -37,13 +36,8 @@ _SIGNALS = ("SIGINT", "SIGQUIT", "SIGTERM", "SIGHUP", "SIGPIPE", "SIGTSTP", "SIG
 # Seconds: for bash to start, for a terminal to take input, and between two looks whether it lives.
 _STARTS_WITHIN, _TAKES_WITHIN, _LOOK_EVERY = 20.0, 20.0, 0.25
 _AGAIN_AFTER = 2.0
-# Our own prompt is on its way for so long.
-_ON_ITS_WAY = 0.1
 # A program that prints without end is slowed down, so that it leaves the page some of the machine.
 _FLOOD, _PAUSE = 65_536, 0.01
-# After `set -v` bash shows its start-up, too.
-_OURS = "{ PS1=$__rosbeat_ps1"
-_FOREIGN_PROMPT = re.compile(r"[$#%>] ?$")
 # A mark: an operating system command with a number that no terminal uses. The kinds: bash waits
 # for a command, or for more of one; it runs one.
 _HEAD = "\x1b]7771;"
@@ -93,9 +87,8 @@ class Shell:
         self._held = ""
         self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self._changed = threading.Condition()
-        self._moment = self._asked_at = 0
+        self._moment = 0
         self.state, self.folder, self.begun = BUSY, folder, True
-        self._hidden = False
         self.code: int | None = None
         self._process = _start_bash(folder, token)
         os.set_blocking(self._process.fd, False)
@@ -168,16 +161,8 @@ class Shell:
     def note(self, shown: str) -> None:
         """Show what is typed into the running program, behind what it asks."""
         with self._changed:
-            asked = self._history.since(self._asked_at - 1) if self._asked_at else []
-            question = asked[0].text if len(asked) == 1 else ""
-            line = (self._builder.finish() or question) + shown
+            line = self._builder.finish() + shown
             self._history.add(self._polish(line), time.time_ns(), typed=True)
-
-    def break_line(self) -> None:
-        """Take the beginning of a line, such as a question, for a line of its own."""
-        with self._changed:
-            self._end_line()
-            self._asked_at = self._history.end
 
     def leave_unfinished(self) -> None:
         """Press Ctrl+C in the middle of a command.
@@ -217,27 +202,21 @@ class Shell:
 
     def foreground(self) -> int:
         """Return the process group that has the terminal; 0 if there is none, or if it is bash."""
-        group = _foreground(self._process.fd)
+        group = 0
+        with suppress(OSError):
+            group = os.tcgetpgrp(self._process.fd)
         return 0 if self.state != BUSY or group == self._process.pid else group
-
-    def waits_for_input(self) -> bool:
-        """Return whether the program in front reads from the terminal, as far as Linux tells."""
-        return _reads_terminal(self.foreground())
 
     def interrupt(self, group: int = 0) -> None:
         """Do what Ctrl+C does.
 
         The key itself makes the terminal throw away what is on its way, after the signal: output
-        would be lost now and then, our mark among it. Only a program that wants keys gets the key.
+        would be lost now and then, our mark among it.
 
         Args:
             group: The process group that is meant, by default the one in front.
         """
-        _, local = _modes(self._process.fd)
-        if local & termios.ISIG:
-            self._signal(signal.SIGINT, group)
-        else:
-            self._write("\x03")
+        self._signal(signal.SIGINT, group)
 
     def kill(self) -> None:
         """Kill the program in the foreground; the shell itself if it is that."""
@@ -254,34 +233,6 @@ class Shell:
             if self.state != ENDED:
                 os.kill(self._process.pid, signal.SIGKILL)
         self.wait(lambda: self.state == ENDED, _TAKES_WITHIN)
-
-    def bring_prompt_back(self) -> bool:
-        """Put our prompt back if bash waits at another one, which says nothing; return whether so.
-
-        A `source ~/.bashrc` may set `PROMPT_COMMAND`, and `exec bash` starts without ours.
-        """
-        # Our own prompt may just be on its way.
-        if not self._waits_in_bash() or self.wait(lambda: self.state != BUSY, _ON_ITS_WAY):
-            return False
-        if not self._waits_in_bash():
-            return False
-        with self._changed:
-            if _FOREIGN_PROMPT.search(self._builder.partial):
-                self._builder.finish()
-            self._hidden = True
-        self._write(f" . '{STARTUP}'\n")
-        return True
-
-    def _waits_in_bash(self) -> bool:
-        try:
-            running = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
-        except OSError:
-            return False
-        taken, local = _modes(self._process.fd)
-        # Unlike a program, and `read -n 1`, readline takes single keys and tells CR from newline.
-        edits_lines = not local & termios.ICANON and not taken & termios.ICRNL
-        in_front = self.state == BUSY and _foreground(self._process.fd) == self._process.pid
-        return in_front and running.startswith("bash") and edits_lines
 
     # The reading thread.
 
@@ -320,17 +271,13 @@ class Shell:
         with self._changed:
             begin = 0
             for mark in self._mark.finditer(text):
-                self._print(text[begin : mark.start()])
+                self._add(self._builder.feed(text[begin : mark.start()]))
                 self._obey(mark[1], int(mark[2] or 0), mark[3])
                 begin = mark.end()
             end = _beginning_of_mark(text, begin)
-            self._print(text[begin:end])
+            self._add(self._builder.feed(text[begin:end]))
             self._held = text[end:]
             self._tell()
-
-    def _print(self, text: str) -> None:
-        if not self._hidden:
-            self._add(self._builder.feed(text))
 
     def _obey(self, kind: str, code: int, folder: str) -> None:
         self.begun = True
@@ -340,7 +287,6 @@ class Shell:
         self.state = UNFINISHED
         if kind == _PROMPT:
             self.state, self.code, self.folder = READY, code, Path(folder or "/")
-            self._hidden = False
 
     def _end_line(self) -> None:
         line = self._builder.finish()
@@ -350,8 +296,7 @@ class Shell:
     def _add(self, lines: list[str]) -> None:
         now = time.time_ns()
         for line in lines:
-            if _OURS not in line:
-                self._history.add(self._polish(line), now)
+            self._history.add(self._polish(line), now)
 
     def _tell(self) -> None:
         self._moment += 1
@@ -368,15 +313,6 @@ def _beginning_of_mark(text: str, begin: int) -> int:
 
 
 # The pseudo-terminal and its processes.
-
-
-def _modes(descriptor: int) -> tuple[int, int]:
-    """Return the flags `c_iflag` and `c_lflag` of termios(3); zeros if the terminal has ended."""
-    try:
-        found = termios.tcgetattr(descriptor)
-    except (termios.error, OSError, ValueError):
-        return 0, 0
-    return int(found[0]), int(found[3])
 
 
 def _start_bash(folder: Path, token: str) -> PtyProcess:
@@ -446,28 +382,3 @@ def _wait_for_event(descriptor: int, event: int, seconds: float) -> None:
     with suppress(OSError, ValueError):
         poll.register(descriptor, event)
         poll.poll(seconds * 1000)
-
-
-def _foreground(descriptor: int) -> int:
-    """Return the process group in front of a terminal; 0 if there is none to be found."""
-    with suppress(OSError):
-        return os.tcgetpgrp(descriptor)
-    return 0
-
-
-#: Numbers of the system calls `read`, `select` and `poll`, and of their relatives, on x86-64 and on
-#: arm64.
-_READ, _SELECT, _POLL = {"0", "63"}, {"23", "270", "72"}, {"7", "271", "73"}
-
-
-def _reads_terminal(process: int) -> bool:
-    """Return whether a process waits in a call that reads its standard input; False if unknown."""
-    try:
-        call = Path(f"/proc/{process}/syscall").read_text().split()
-    except OSError:
-        return False
-    number, first, second = (*call, "", "", "")[:3]
-    if number in _READ:
-        return first == "0x0"
-    # A prompt waits until there is something to read on the first file descriptor, and no other.
-    return (number in _SELECT and first == "0x1") or (number in _POLL and second == "0x1")

@@ -1,9 +1,5 @@
-# Run by bash once, before its first prompt, in every terminal of a page; and again if a command has
-# taken our prompt away. The prompt is a mark that nobody sees: it says that the command before has
-# ended, with which code, and in which folder.
-__rosbeat_code=$?
-# readline writes the prompt to the standard error, which `exec 2> FILE` takes away.
-[ -t 2 ] || exec 2>/dev/tty
+# Run by bash once, before its first prompt, in every terminal of a page. The prompt is a mark that
+# nobody sees: it says that the command before has ended, with which code, and in which folder.
 # Only this shell has such a prompt, not a bash that is started in it.
 export -n PS0 PS1 PS2 PROMPT_COMMAND
 unset HISTFILE INPUTRC MAILCHECK TMOUT
@@ -26,4 +22,3 @@ PS0='\e]7771;'$ROSBEAT_TERMINAL';R;;\a'
 # `stty sane` turns the echo on. `set -x` is not to show that.
 PROMPT_COMMAND='{ PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2; stty -echo || :; } 2>/dev/null'
 PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2
-return $__rosbeat_code

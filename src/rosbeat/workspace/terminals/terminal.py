@@ -1,28 +1,41 @@
-"""One terminal of a page: commands are typed, and what becomes of them is followed and shown."""
+"""The terminals of a page: commands are typed, and what becomes of them is followed and shown."""
 
 from __future__ import annotations
 
-import re
+import atexit
+import os
+import secrets
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from rosbeat.errors import TerminalError
+from rosbeat.errors import TerminalError, called_as
 from rosbeat.records import LogRecord
-from rosbeat.workspace.place import workspace
-from rosbeat.workspace.terminals import colours, refusals
+from rosbeat.workspace import commands
+from rosbeat.workspace.place import page_number, workspace, workspace_parent
+from rosbeat.workspace.terminals import reaper
 from rosbeat.workspace.terminals.environment import polisher, prompt
-from rosbeat.workspace.terminals.output import Display, Line, Show, log_records, new_only, say
-from rosbeat.workspace.terminals.reaper import end_marked
+from rosbeat.workspace.terminals.output import (
+    Display,
+    Line,
+    Show,
+    log_records,
+    new_only,
+    print_line,
+    say,
+)
 from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
 from rosbeat.workspace.waiting import LONG, Note
 
-# How watching a command ends: it has ended; the text has come; the time that was asked for is over;
-# patience is; the program waits for an answer.
-_FINISHED, _FOUND, _TIME_UP, _TOO_LONG, _QUIET = range(5)
+# How watching a command ends: it has ended; the text has come; it has come as a question, in a line
+# without an end; the time that was asked for is over; patience is; the program waits for an answer.
+_FINISHED, _FOUND, _ASKED, _TIME_UP, _TOO_LONG, _QUIET = range(6)
 # Seconds for which a cell follows a command by itself. Builds take long on a small computer.
 _PATIENCE, _BUILD_PATIENCE = 60.0, 300.0
 # After so many seconds of silence the beginning of a line is taken for a question.
@@ -32,9 +45,9 @@ _ENDS_SOON, _STOPS_WITHIN, _BEGINS_WITHIN = 2.0, 10.0, 5.0
 # Seconds after which Ctrl+C is pressed again if it has reached nobody.
 _AGAIN_AFTER = 0.2
 _LAST_LINES = 5
+_HELD_AS = "_rosbeat_terminals"
 # What is looked at to explain a failure: so many lines, and characters of each.
 _LINES_TO_EXPLAIN, _LONGEST_TO_EXPLAIN = 2000, 1000
-_TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
 
 
 @dataclass(frozen=True)
@@ -98,7 +111,7 @@ class Terminal:
             return "ended"
         if self._shell.state == READY:
             return f"waits at {self._prompt().rstrip()}"
-        return f"runs `{refusals.short(self.command)}`"
+        return f"runs `{commands.short(self.command)}`"
 
     @property
     def busy(self) -> bool:
@@ -120,7 +133,7 @@ class Terminal:
         """Return the folder in which its next command runs."""
         return self._shell.folder
 
-    def type(self, text: str, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - fields of Watching
+    def type(self, text: str, *, show: Show = print_line, **watching: Any) -> None:  # noqa: ANN401 - fields of Watching
         """Type commands, line by line, and show what they print until the last one has ended.
 
         Args:
@@ -141,17 +154,17 @@ class Terminal:
                 f'`%%terminal {self.name}` and `workspace.terminal("{self.name}")` open a new '
                 "terminal with this name.",
             )
-        typed = refusals.lines_of(text)
-        if blank := refusals.blank_in(typed):
+        typed = commands.lines_of(text)
+        if blank := commands.blank_in(typed):
             say(show, f"nothing was typed: {blank}")
             return
-        refusals.refuse_unfinished(typed)
+        commands.refuse_unfinished(typed)
         self._make_way(text, show)
         self._cell = text
         with self._told():
             self._type_lines(typed, Watching(**watching), show)
 
-    def answer(self, text: str, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - as type
+    def answer(self, text: str, *, show: Show = print_line, **watching: Any) -> None:  # noqa: ANN401 - as type
         """Type into the program that runs, and show what it says until it falls silent.
 
         The arguments are those of `type`.
@@ -169,12 +182,12 @@ class Terminal:
         goal = Watching(**watching)
         if goal.until is None and goal.seconds is None:
             goal = replace(goal, until_quiet=True)
-        typed = refusals.lines_of(text)
+        typed = commands.lines_of(text)
         self._shell.wait(lambda: self._shell.begun, _BEGINS_WITHIN)
         with self._told():
             self._answer_lines(typed, goal, show)
 
-    def look(self, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - as type
+    def look(self, *, show: Show = print_line, **watching: Any) -> None:  # noqa: ANN401 - as type
         """Show what came since the last look, and watch on if there is something to wait for.
 
         The arguments are those of `type`.
@@ -188,7 +201,7 @@ class Terminal:
         with self._told():
             self._conclude(self._follow(goal, Display(show), self._place), goal, show, looking=True)
 
-    def ctrl_c(self, *, timeout: float = 10.0, show: Show = colours.show) -> int | None:
+    def ctrl_c(self, *, timeout: float = 10.0, show: Show = print_line) -> int | None:
         """Press Ctrl+C, show how the program ends, and return its exit code.
 
         Lines like those that the program printed before are not shown again.
@@ -208,7 +221,7 @@ class Terminal:
 
         return self._end(press, "^C", timeout, show)
 
-    def ctrl_d(self, *, timeout: float = 10.0, show: Show = colours.show) -> int | None:
+    def ctrl_d(self, *, timeout: float = 10.0, show: Show = print_line) -> int | None:
         """Press Ctrl+D, which tells the program that its input is over; as `ctrl_c`.
 
         Args:
@@ -220,7 +233,7 @@ class Terminal:
         """
         return self._end(self._shell.end_of_input, "^D", timeout, show)
 
-    def kill(self, *, timeout: float = 10.0, show: Show = colours.show) -> int | None:
+    def kill(self, *, timeout: float = 10.0, show: Show = print_line) -> int | None:
         """Kill the program that runs, show that it ended, and return its exit code.
 
         Args:
@@ -243,7 +256,7 @@ class Terminal:
     def close(self) -> None:
         """End the terminal and every process that was started in it."""
         if not self.ended:
-            end_marked(self._token)
+            reaper.end_marked(self._token)
             self._shell.hang_up()
 
     # Typing.
@@ -253,13 +266,9 @@ class Terminal:
         again = cell == self._cell
         if self._shell.wait(lambda: not self.busy, 0.0 if again else _ENDS_SOON):
             return
-        # The last command may have taken the prompt away after nobody watched any more.
-        lost = self._touches_prompt() and self._shell.bring_prompt_back()
-        if lost and self._shell.wait(lambda: not self.busy, _BEGINS_WITHIN):
-            return
         if not again:
             raise self._busy()
-        say(show, f"`{refusals.short(self.command)}` of this cell still runs, and is stopped first")
+        say(show, f"`{commands.short(self.command)}` of this cell still runs, and is stopped first")
         self.ctrl_c(timeout=_STOPS_WITHIN, show=lambda _: None)
 
     def _type_lines(self, lines: list[str], goal: Watching, show: Show) -> None:
@@ -287,8 +296,8 @@ class Terminal:
 
     def _refusal(self, line: str) -> str:
         here = self._prompt().removesuffix("$ ")
-        outside = refusals.build_outside(line, self._shell.folder, workspace(), here)
-        return outside or refusals.full_screen(line)
+        outside = commands.build_outside(line, self._shell.folder, workspace(), here)
+        return outside or commands.full_screen(line)
 
     def _type_line(self, line: str, goal: Watching, display: Display) -> int:
         place = self._shell.end
@@ -334,8 +343,7 @@ class Terminal:
     def _watch_until(
         self, goal: Watching, see: Callable[[Line], None], deadline: float, note: Note
     ) -> int:
-        found, may_repair = 0, self._touches_prompt()
-        spoke = time.monotonic()
+        found, spoke = 0, time.monotonic()
         while True:
             glance = self._shell.glance(self._place)
             if glance.lines:
@@ -356,29 +364,25 @@ class Terminal:
                 return _TOO_LONG if goal.seconds is None else _TIME_UP
             if self._shell.wait_after(glance.moment, min(_SILENCE, max(0.001, left))):
                 continue
-            # A `.bashrc` may take its time: until bash waits there is nothing to repair.
-            may_repair = may_repair and not self._shell.bring_prompt_back()
             if time.monotonic() >= deadline:
                 continue
-            if goal.until is not None and goal.until in glance.partial:
-                self._shell.break_line()
-            elif goal.until_quiet:
+            if goal.until is not None and goal.until in glance.partial and found + 1 >= goal.lines:
+                return _ASKED
+            if goal.until_quiet:
                 return _QUIET
 
     def _waits_for(self, goal: Watching, seconds: float) -> str:
         """Say why nothing comes: what is waited for, and how to end that."""
-        command, silent = refusals.short(self.command), f"nothing came for {seconds:.0f} s"
-        if self._shell.waits_for_input():
-            return (
-                f"`{command}` waits for input ({silent}). Interrupt the cell, and then:\n"
-                f"  %%terminal {self.name} --answer  with lines below types them into it,\n"
-                f"  %terminal {self.name} --ctrl-d   says that there is no more input,\n"
-                f"  %terminal {self.name} --ctrl-c   stops it."
-            )
         goal_is = f"until `{goal.until}` appears" if goal.until else "until it ends"
         if goal.seconds is not None and goal.until is None:
             goal_is = f"for {goal.seconds:g} s"
-        return f"`{command}` runs ({silent}); this cell watches {goal_is}."
+        return (
+            f"`{commands.short(self.command)}` runs (nothing came for {seconds:.0f} s); this cell "
+            f"watches {goal_is}. If it waits for input, interrupt the cell, and then:\n"
+            f"  %%terminal {self.name} --answer  with lines below types them into it,\n"
+            f"  %terminal {self.name} --ctrl-d   says that there is no more input,\n"
+            f"  %terminal {self.name} --ctrl-c   stops it."
+        )
 
     def _conclude(self, ending: int, goal: Watching, show: Show, looking: bool = False) -> None:
         """Say how the command ended, or that it did not."""
@@ -392,7 +396,7 @@ class Terminal:
         partial = self._shell.glance(self._shell.end).partial
         if partial and ending != _FOUND:
             show(partial)
-        command = refusals.short(self.command)
+        command = commands.short(self.command)
         if ending == _TOO_LONG:
             if goal.until is not None:
                 raise self._not_seen(goal, f"within {self._patience(goal):g} s")
@@ -420,11 +424,8 @@ class Terminal:
             say(show, f"the terminal `{self.name}` has ended; its next use opens a new one")
 
     def _explain(self, code: int, show: Show) -> None:
-        # Loaded when the first command has ended: the first prompt does not wait for it.
-        from rosbeat.workspace.meanings import explain
-
         lines = (line[:_LONGEST_TO_EXPLAIN] for line in self._printed()[-_LINES_TO_EXPLAIN:])
-        said = explain(self.command, "\n".join(lines), code, self._folder, workspace())
+        said = commands.explain(self.command, "\n".join(lines), code, self._folder, workspace())
         if said:
             say(show, "\n".join(map(polisher(), said.splitlines())))
 
@@ -461,7 +462,7 @@ class Terminal:
     def _busy(self) -> TerminalError:
         other = {"sensor": "monitor", "monitor": "sensor"}.get(self.name, f"{self.name}2")
         return TerminalError(
-            f"The terminal `{self.name}` is busy: `{refusals.short(self.command)}` runs in it.",
+            f"The terminal `{self.name}` is busy: `{commands.short(self.command)}` runs in it.",
             "A terminal runs one command at a time, and this command has not finished.",
             f"Stop it with `%terminal {self.name} --ctrl-c`, or use another terminal: "
             f"`%%terminal {other}`. To type into the program, add `--answer`.",
@@ -471,7 +472,7 @@ class Terminal:
         after = {"^C": "Ctrl+C", "^D": "Ctrl+D"}.get(key, "it was killed")
         end = f"`%terminal {self.name} --kill`" if key else f"`%terminal {self.name} --close`"
         return TerminalError(
-            f"`{refusals.short(self.command)}` is still running {seconds:g} s after {after}.",
+            f"`{commands.short(self.command)}` is still running {seconds:g} s after {after}.",
             "The program ignores the request, needs more time to shut down, or keeps starting "
             "other programs.",
             f"Wait a little and check with `%terminal {self.name}`, or end it immediately with "
@@ -503,7 +504,7 @@ class Terminal:
                 self._shell.leave_unfinished()
             said = f"the terminal `{self.name}` waits for the next command."
             if self.busy:
-                command = refusals.short(self.command)
+                command = commands.short(self.command)
                 said = f"`{command}` goes on running in the terminal `{self.name}`."
             lines = [f"KeyboardInterrupt: {said}"]
             interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's
@@ -512,10 +513,143 @@ class Terminal:
     def _prompt(self) -> str:
         return prompt(self._shell.folder, self._parent)
 
-    def _touches_prompt(self) -> bool:
-        return bool(_TOUCHES_PROMPT.search(self.command))
-
     def _patience(self, goal: Watching) -> float:
         if goal.timeout is not None:
             return goal.timeout
         return _BUILD_PATIENCE if self.command.split()[:1] == ["colcon"] else _PATIENCE
+
+
+# All terminals of a kernel.
+
+
+class Terminals:
+    """Keep a set of terminals, closed together; usable in a `with` block.
+
+    Args:
+        parent: The folder in which they start, by default the one that holds the workspace.
+        prepare: Called once, before the first of them opens.
+    """
+
+    def __init__(
+        self, parent: Path | None = None, prepare: Callable[[], None] | None = None
+    ) -> None:
+        self._parent = parent
+        self._prepare = prepare
+        self._open: dict[str, Terminal] = {}
+        self._mark = f"{secrets.token_hex(8)}."
+        self._count = 0
+        self._watcher: subprocess.Popen[bytes] | None = None
+        self._pid = os.getpid()
+
+    def __enter__(self) -> Terminals:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __iter__(self) -> Iterator[Terminal]:
+        return iter([one for one in self._open.values() if not one.ended])
+
+    @property
+    def alien(self) -> bool:
+        """Return whether they belong to the process that this one was forked from."""
+        return self._pid != os.getpid()
+
+    def get(self, name: str) -> Terminal:
+        """Return the terminal of a name; open it if there is none, or if it has ended.
+
+        Args:
+            name: Letters, digits, `-` and `_`.
+
+        Raises:
+            TerminalError: If it cannot start.
+        """
+        terminal = self.find(name)
+        if terminal is None:
+            prepare, self._prepare = self._prepare, None
+            if prepare is not None:
+                prepare()
+            self._watch_over()
+            self._count += 1
+            token = f"{self._mark}{self._count}."
+            terminal = Terminal(name, token, self._parent or workspace_parent())
+            self._open[name] = terminal
+        return terminal
+
+    def find(self, name: str) -> Terminal | None:
+        """Return the terminal of a name if it is open."""
+        terminal = self._open.get(name)
+        return None if terminal is None or terminal.ended else terminal
+
+    def close(self) -> None:
+        """End every terminal and every process that was started in one."""
+        if self._watcher is None or self.alien:
+            return
+        atexit.unregister(self.close)
+        reaper.end_marked(self._mark)
+        for terminal in self._open.values():
+            terminal.close()
+        self._open.clear()
+        self._dismiss(self._watcher)
+        self._watcher = None
+
+    def _watch_over(self) -> None:
+        """Start what ends our processes if this one cannot do it itself."""
+        if self._watcher is None:
+            command = [sys.executable, "-I", "-S", str(Path(reaper.__file__))]
+            self._watcher = subprocess.Popen(
+                [*command, self._mark, str(os.getpid())],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                cwd="/",
+                start_new_session=True,
+            )
+            atexit.register(self.close)
+
+    def _dismiss(self, watcher: subprocess.Popen[bytes]) -> None:
+        watcher.kill()
+        if watcher.stdin:
+            watcher.stdin.close()
+        watcher.wait()
+
+
+def terminals_of(shell: Any) -> Terminals:  # noqa: ANN401 - IPython carries no types
+    """Return the terminals of a kernel, which its shell holds.
+
+    Before the first one opens on a page, what earlier pages leave in the workspace is made.
+    """
+    held = getattr(shell, _HELD_AS, None)
+    if held is None or held.alien:
+        held = Terminals(prepare=_catch_up)
+        setattr(shell, _HELD_AS, held)
+    return held
+
+
+def _catch_up() -> None:
+    # Where answers are observed, no page is open, and what makes a workspace is not there.
+    page = page_number()
+    if page:
+        import_module("rosbeat.workspace.catching_up").catch_up_on(page)
+
+
+@called_as('workspace.terminal("sensor")')
+def terminal(name: str) -> Terminal:
+    """Return a terminal of this kernel; it opens if it is not there.
+
+    Args:
+        name: What it is called in `%%terminal`.
+
+    Raises:
+        TerminalError: If this is not a page, or the terminal cannot start.
+    """
+    from IPython import get_ipython
+
+    shell = get_ipython()
+    if shell is None:
+        raise TerminalError(
+            "This program is not a page, so it has no terminals.",
+            "Terminals belong to the kernel of a page.",
+            "In a program, use `with Terminals() as terminals: terminals.get(name)`.",
+        )
+    return terminals_of(shell).get(name)

@@ -1,13 +1,19 @@
-"""Commands that a terminal does not type, and why."""
+"""What is known of a command: why it is not typed, and what its outcome means."""
 
 from __future__ import annotations
 
 import re
 import subprocess
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from rosbeat.diagnosis.terminal import split_commands
+from rosbeat.diagnosis import terminal
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import TerminalError
+from rosbeat.workspace.place import steady_home
+
+if TYPE_CHECKING:
+    from rosbeat.diagnosis.packages import Package
 
 _SHORT = 60
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
@@ -96,11 +102,9 @@ def _holds_package(folder: Path) -> bool:
         return False
 
 
-_EDITORS = frozenset(["vi", "vim", "nvim", "view", "vimdiff", "nano", "pico", "emacs"])
-_PAGERS = frozenset(["less", "more", "most"])
-_FULL_SCREEN = frozenset(
-    ["top", "htop", "btop", "atop", "iotop", "watch", "tmux", "screen", "mc", "ncdu", "ranger"]
-) | _EDITORS | _PAGERS  # fmt: skip
+_EDITORS = {"vi", "vim", "nvim", "view", "nano", "pico", "emacs"}
+_PAGERS = {"less", "more", "most"}
+_FULL_SCREEN = {"top", "htop", "btop", "watch", "tmux", "screen", "mc"} | _EDITORS | _PAGERS
 # With one of these they print something and end.
 _PRINTS = {"--version", "--help", "-h", "-V", "-b", "-bn1"}
 _BEFORE = {"sudo", "exec", "command", "time", "(", "{", "!"}
@@ -112,35 +116,22 @@ def full_screen(line: str) -> str:
     Args:
         line: The command, one line of it.
     """
-    for words in split_commands(line):
+    for words in terminal.split_commands(line):
         rest = [word for word in words if word not in _BEFORE]
         name = Path(rest[0]).name if rest else ""
         if name in _FULL_SCREEN and not _PRINTS & set(rest[1:]):
-            return (
-                f"`{name}` needs a full-screen terminal, which a page does not have. "
-                f"{_instead(name)}"
-            )
+            instead = "JupyterLab's own terminal can do that: choose File, New, Terminal."
+            if name in _EDITORS:
+                instead = "To edit a file, double-click it in JupyterLab's file browser."
+            elif name in _PAGERS:
+                instead = "`cat FILE` prints a whole file into the page."
+            return f"`{name}` needs a full-screen terminal, which a page does not have. {instead}"
     return ""
 
 
-def _instead(name: str) -> str:
-    if name in _EDITORS:
-        return "To edit a file, double-click it in JupyterLab's file browser."
-    if name in _PAGERS:
-        return "`cat FILE` prints a whole file into the page."
-    printed = "`top -b -n 1` prints the list once. " if name == "top" else ""
-    return f"{printed}JupyterLab's own terminal can do that: choose File, New, Terminal."
-
-
-_MISSING = {
-    '"': 'a closing quote `"`',
-    "'": "a closing quote `'`",
-    ")": "a closing parenthesis `)`",
-    "}": "a closing brace `}`",
-    "`": "a closing backquote",
-}
-_WANTED = re.compile(r"looking for matching `(.)'|wanted `(.+)'\)")
-_AT_THE_END = "unexpected end of file"
+_UNFINISHED = re.compile(
+    r"(?m)^bash: (?:line \d+: )?(.*(?:unexpected end of file|looking for matching|wanted `).*)$"
+)
 
 
 def refuse_unfinished(lines: list[str]) -> None:
@@ -150,22 +141,62 @@ def refuse_unfinished(lines: list[str]) -> None:
         lines: The commands.
 
     Raises:
-        TerminalError: If it has no end. What is missing is said as far as bash says it.
+        TerminalError: If it has no end. What is missing is said as bash says it.
     """
     asked = subprocess.run(
         ["bash", "--norc", "-n"],
         input="\n".join(lines) + "\n", capture_output=True, text=True, timeout=10, check=False,
         env={"LC_ALL": "C", "PATH": "/usr/local/bin:/usr/bin:/bin"},
     )  # fmt: skip
-    goes_on = re.search(r"(?<!\\)(\\\\)*\\$", lines[-1])
-    found = _WANTED.search(asked.stderr)
-    if not (goes_on or found or _AT_THE_END in asked.stderr):
+    found = _UNFINISHED.search(asked.stderr)
+    if found is None and not re.search(r"(?<!\\)(\\\\)*\\$", lines[-1]):
         return
-    missing = "its end (`done`, `fi`, `}`, the line after a `\\` or the like)"
-    if found:
-        missing = _MISSING.get(found[1]) or f"the line `{found[2]}` that ends the text"
+    said = f' It says "{found[1]}".' if found else ""
     raise TerminalError(
-        f"The command is not finished: {missing} is missing.",
-        "bash would wait for the rest. Nothing of the cell was typed.",
+        "The command is not finished: its end is missing.",
+        f"bash would wait for the rest.{said} Nothing of the cell was typed.",
         "Complete the command in the cell, then run the cell again.",
     )
+
+
+# The outcome, by the rules of `rosbeat.diagnosis.terminal`.
+
+
+def recognise(
+    command: str, output: str, code: int, folder: Path, workspace: Path
+) -> Diagnosis | None:
+    """Return the mistake behind a command's outcome, or None if nothing is known for sure.
+
+    Args:
+        command: The command as it was typed.
+        output: The text that the terminal showed.
+        code: The exit code.
+        folder: The folder in which the terminal was.
+        workspace: The learner's workspace; its files are read.
+    """
+    return terminal.recognise(_situation(command, output, code, folder, workspace))
+
+
+def explain(command: str, output: str, code: int, folder: Path, workspace: Path) -> str | None:
+    """Return two or three sentences about a command's outcome; the arguments of `recognise`.
+
+    Returns:
+        What it means and what to try; None if nothing is known for sure, or if the output says the
+        same itself.
+    """
+    return terminal.explain(_situation(command, output, code, folder, workspace))
+
+
+def _situation(
+    command: str, output: str, code: int, folder: Path, workspace: Path
+) -> terminal.Situation:
+    home = steady_home() or Path.home()
+
+    def packages() -> tuple[Package, ...]:
+        # Loaded when a rule asks: the first prompt does not wait for it.
+        from rosbeat.workspace.packages import find_packages, read_package
+
+        folders = find_packages(workspace) if workspace.is_dir() else []
+        return tuple(read_package(one, workspace) for one in folders)
+
+    return terminal.Situation(command, output, code, folder, workspace, home, packages)
