@@ -47,6 +47,8 @@ MAY_IMPORT = {
     "new_command": {"errors"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
+    # The import of page 07 in release 0.1.0.
+    "scenarios": {"ros"},
     "exercises": {
         *("ros", "records", "records_json", "comparisons", "errors", "viz", "workspace"),
         *("diagnosis", "environment", "rosbeat", "bags", "clinic"),

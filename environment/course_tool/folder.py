@@ -139,10 +139,17 @@ def _show_docs(layout: Layout) -> None:
 
 
 def _show(layout: Layout, path: Path, content: bytes) -> None:
-    """Make a read-only file of the learner's folder follow one of the course."""
+    """Make a read-only file of the learner's folder follow one of the course.
+
+    A file that can be written to is a person's own, and stays, under another name.
+    """
     target = layout.learner / path.relative_to(layout.root)
-    if not target.exists() or target.read_bytes() != content:
-        _write(target, content, _READ_ONLY)
+    if target.exists():
+        if target.read_bytes() == content:
+            return
+        if target.stat().st_mode & 0o222:
+            say(f"Your {_shown(layout, target)} is kept as {_shown(layout, _keep(target))}.")
+    _write(target, content, _READ_ONLY)
 
 
 def as_solution(name: str, content: bytes) -> bytes:

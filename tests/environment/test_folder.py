@@ -371,3 +371,17 @@ def test_reset_and_update_work_in_a_learners_folder(shared, tmp_path, capsys):
     assert sources(mine) == ["import rosbeat", BLANK, "____"]
     kept = "yours is kept as my_course/03_write-kept-1.ipynb"
     assert kept in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", [f"solutions/{NAME}", "docs/glossary.md"])
+def test_a_file_of_ones_own_is_kept_beside_what_is_shown(course, name, capsys):
+    own = course.learner / name
+    own.parent.mkdir(parents=True)
+    own.write_text("mine")
+    folder.make(course)
+    assert own.read_text() != "mine"
+    kept = own.with_name(f"{own.stem}-kept-1{own.suffix}")
+    assert kept.read_text() == "mine"
+    assert f"is kept as {kept.relative_to(course.root)}" in capsys.readouterr().out
+    folder.make(course)
+    assert kept.read_text() == "mine"  # it can be written to, so it is not the course's

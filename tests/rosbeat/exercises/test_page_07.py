@@ -5,6 +5,7 @@ import json
 import pytest
 
 from bank.running import outcome_of
+from rosbeat import Session
 from rosbeat.exercises.page_07 import Greenhouse, judge_findings
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.exercises.scenarios import Report
@@ -39,6 +40,16 @@ class Watcher(Node):
 def test_a_name_may_follow_its_line_a_moment_later(period, said):
     outcome = outcome_of("07c", LATER.replace("PERIOD", period), "Watcher")
     assert said in outcome.evidence, outcome
+
+
+@pytest.mark.ros
+def test_the_old_name_of_the_greenhouse_still_works_and_says_the_new_one():
+    from rosbeat.scenarios.stranger import greenhouse
+
+    with Session(seed=0) as ros:
+        with pytest.warns(DeprecationWarning, match="add_greenhouse"):
+            greenhouse(ros)
+        assert len(ros.nodes) == 5
 
 
 # Findings about another greenhouse than the page's: the judge knows none by heart.
