@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from queue import Empty
 from types import SimpleNamespace
@@ -455,3 +455,38 @@ def test_a_page_that_does_not_count_still_knows_its_hints(course, monkeypatch):
         progress_file().change("03a", lambda before: replace(before, hints=before.hints + 1))
         assert progress_file().standings()["03a"].hints == number
     assert dict(kept(course)) == {}
+
+
+#: The exercises that version 1 of the file had in one, and their steps.
+SPLIT = [("04c", ("04c", "04d", "04e")), ("12c", ("12c", "12d", "12e"))]
+
+
+def stored_before(path, **standings):
+    """Write a file as version 1 of its form."""
+    path.parent.mkdir(exist_ok=True)
+    text = {name: asdict(one) for name, one in standings.items()}
+    path.write_text(json.dumps({"version": 1, "exercises": text}))
+
+
+@pytest.mark.parametrize(("old", "steps"), SPLIT)
+def test_a_pass_of_an_exercise_that_was_split_is_a_pass_of_each_step(remembered, told, old, steps):
+    passed = Standing("passed", passed=True, points=4, attempts=3, hints=1)
+    stored_before(remembered.path, **{"00a": PASSED, old: passed})
+    remembered.change("03a", one_more)
+    after = dict(remembered.standings())
+    assert (after.pop("00a"), after.pop("03a")) == (PASSED, Standing(attempts=1))
+    assert {name: one.points for name, one in after.items()} == {
+        step: EXERCISES[step].points for step in steps
+    }
+    assert all(replace(one, points=4) == passed for one in after.values())
+    assert sum(one.points for one in after.values()) == 4
+    assert told == []
+
+
+@pytest.mark.parametrize(("old", "steps"), SPLIT)
+def test_attempts_of_an_exercise_that_was_split_are_attempts_of_its_last_step(
+    remembered, old, steps
+):
+    failed = Standing("failed", attempts=2, hints=1, mistake="boundary")
+    stored_before(remembered.path, **{old: replace(failed, lead="Look at the limits.")})
+    assert remembered.standings() == {steps[-1]: failed}
