@@ -33,6 +33,7 @@ LICENSES = (
 #: Without a full ROS 2, linters may be missing, and ament_copyright is on no registry at all: these
 #: tests are then skipped, where the original's imports at the top would end the whole run.
 _LINTER_TESTS = ("test_copyright.py", "test_flake8.py", "test_pep257.py")
+_DEPENDENCY = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 # XML 1.0 cannot hold these, and neither can a file in UTF-8 hold halves of characters.
 _UNWRITABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
@@ -120,6 +121,9 @@ def _check_names(args: Namespace) -> None:
             reserved = "names that begin with two underscores are reserved for Python"
             reason = _not_importable(name) or (reserved if name.startswith("__") else "")
             _refuse(kind, name, reason)
+    for one in args.dependencies:
+        if not _DEPENDENCY.fullmatch(one):
+            raise CommandError(f"Aborted! '{one}' cannot be the name of a package to depend on.")
     if args.package_name in args.dependencies:
         raise CommandError(f"Aborted! The package '{args.package_name}' cannot depend on itself.")
     for option in ("description", "license", "maintainer_name", "maintainer_email"):

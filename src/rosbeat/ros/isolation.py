@@ -21,6 +21,7 @@ from io import TextIOBase
 from pathlib import Path
 from types import FrameType, ModuleType, TracebackType
 from typing import Any, NoReturn
+from weakref import WeakSet
 
 import rclpy
 from rclpy.node import Node
@@ -313,6 +314,7 @@ def unharmed() -> Iterator[Count]:
     """
     count = Count()
     with ExitStack() as stack:
+        stack.callback(_silence_threads_but, set(threading.enumerate()))
         for put_back in [*_settings(), *_signals(), *(_names(*one) for one in _NAMES)]:
             stack.callback(_quietly, put_back)
         stack.enter_context(warnings.catch_warnings())
@@ -328,6 +330,27 @@ def unharmed() -> Iterator[Count]:
             stack.callback(_quietly, lambda: delattr(shell, "ask_exit"))
             shell.ask_exit = _refuse_to_quit
         yield count
+
+
+class _Silence:
+    """Print the exceptions of all threads but those that a block has left behind."""
+
+    def __init__(self) -> None:
+        self.left_behind: WeakSet[threading.Thread] = WeakSet()
+        self._print = threading.excepthook
+
+    def __call__(self, raised: threading.ExceptHookArgs) -> None:
+        if raised.thread not in self.left_behind:
+            self._print(raised)
+
+
+def _silence_threads_but(before: set[threading.Thread]) -> None:
+    """Keep exceptions of the threads that are left behind from the page: its nodes are gone."""
+    left_behind = set(threading.enumerate()) - before
+    if left_behind:
+        if not isinstance(threading.excepthook, _Silence):
+            threading.excepthook = _Silence()
+        threading.excepthook.left_behind.update(left_behind)
 
 
 #: Where names are put back; which ones, or all.

@@ -292,8 +292,8 @@ class Recorder:
 def repair_message_classes() -> list[str]:
     """Give message classes the fields back that were overwritten; return the classes' names."""
     repaired = []
-    # The generated modules are `std_msgs.msg._float32` and the like.
-    modules = [module for name, module in list(sys.modules.items()) if ".msg._" in name]
+    # The generated modules are `std_msgs.msg._float32` and the like. A copy: other threads import.
+    modules = [module for name, module in sys.modules.copy().items() if ".msg._" in name]
     for kind in (kind for module in modules for kind in _classes_of(module)):
         space = vars(kind)
         fields = space["_fields_and_field_types"]

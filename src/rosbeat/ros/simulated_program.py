@@ -236,7 +236,7 @@ class SimulatedProgram:
 
     def _take_own_modules(self) -> dict[str, ModuleType]:
         """Take the program's modules out of `sys.modules`, and return them."""
-        own = [name for name, one in list(sys.modules.items()) if self._is_own(name, one)]
+        own = [name for name, one in sys.modules.copy().items() if self._is_own(name, one)]
         return {name: sys.modules.pop(name) for name in own}
 
     def _is_own(self, name: str, module: Any) -> bool:  # noqa: ANN401 - anything may stand there

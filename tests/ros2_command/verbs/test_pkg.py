@@ -136,6 +136,7 @@ def test_a_second_time_is_refused(ros2, tmp_path):
         (("p", "--node-name", "talk.py"), "Try 'talk'."),
         (("p", "--library-name", "../x"), "cannot be the name of a library"),
         (("p", "--dependencies", "p"), "cannot depend on itself"),
+        (("p", "--dependencies", "rclpy,"), "cannot be the name of a package"),
         (("p", "--destination-directory", "file"), "is a file"),
         (("p", "--destination-directory", "inner"), "is a package itself"),
         (("p", "--build-type", "ament_cmake"), "left out here"),
