@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from graded_classes import mark, observation
-from rosbeat.grading.manual import apply_manual, read_manual, write_template
+from rosbeat.grading.manual_marks import apply_manual, read_manual, write_template
 from rosbeat.grading.marks import Gradebook, Graded, Solution
 from rosbeat.grading.results import write_results
 from rosbeat.grading.review import Review, ReviewServer

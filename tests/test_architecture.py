@@ -35,11 +35,11 @@ MAY_IMPORT = {
     # Of diagnosis only what names a fault and what it is told of a topic, as plain data.
     "ros": {
         *("errors", "records", "environment", "domains"),
-        *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.situation"),
+        *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.topic_snapshot"),
     },
     "panel": {"records", "errors", "viz", "ros"},
     "page_errors": {"errors", "records", "diagnosis"},
-    "page_views": {"records"},
+    "record_display": {"records"},
     "page_session": {"errors", "ros", "diagnosis", "panel"},
     "testing": {"errors", "records", "ros", "page_session"},
     "pytest_plugin": {"testing"},
@@ -61,7 +61,7 @@ MAY_IMPORT = {
     "authoring": {"errors", "domains", "environment"},
     # The package itself hands out names of other rooms.
     "rosbeat": {
-        *("environment", "viz", "page_errors", "page_views", "page_session", "exercises"),
+        *("environment", "viz", "page_errors", "record_display", "page_session", "exercises"),
         *("workspace", "bags", "clinic", "jupyter_lease"),
     },
 }

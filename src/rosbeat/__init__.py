@@ -39,14 +39,14 @@ __all__ = [
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
 if os.environ.get("NBGRADER_EXECUTION"):
-    import_module("rosbeat.workspace.place").settle_in()
+    import_module("rosbeat.workspace.location").settle_in()
 # Without loading IPython where there is none.
 if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
     if not os.environ.get("NBGRADER_EXECUTION"):
         import_module("rosbeat.jupyter_lease").hold_domain()
     import_module("rosbeat.page_errors").register(_shell)
     import_module("rosbeat.exercises.cells").register(_shell)
-    import_module("rosbeat.page_views").register(_shell)
+    import_module("rosbeat.record_display").register(_shell)
 
 _HOMES = {
     "Session": ("rosbeat.page_session", "Session"),

@@ -21,8 +21,8 @@ from nbclient.exceptions import DeadKernelError
 
 from rosbeat.authoring.execution import KernelPlace, kernel_place
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.cards import MIME, OPEN, RIGHT, WRONG
 from rosbeat.exercises.exercise import PASSED
+from rosbeat.exercises.outcome_display import MIME, OPEN, RIGHT, WRONG
 from rosbeat.records_json import to_json
 
 #: Seconds for one cell; an endless loop is interrupted then, and the next cell runs.

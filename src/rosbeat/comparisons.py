@@ -1,4 +1,4 @@
-"""In what two runs differ: message by message on one topic. Pure functions on records.
+"""Compare two runs, message by message on one topic. Pure functions on records.
 
 Messages are paired by their times. What has no partner in the second run is missing there; what
 has none in the first is extra.

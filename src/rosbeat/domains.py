@@ -1,4 +1,4 @@
-"""Which ROS domain ids are for whom, and leases on them.
+"""Lease ROS domain ids, for programs of checks and for terminals.
 
 Two participants of DDS talk if their domain ids are equal. Whoever holds a leased id holds the TCP
 port with the number of that domain's UDP discovery port, 7400 + 250 * id (RTPS specification,

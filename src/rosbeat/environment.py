@@ -1,4 +1,4 @@
-"""What ROS nodes need to find in the environment, as gentle defaults.
+"""Set the environment variables that ROS nodes need, unless they are set already.
 
 Every Python of the course runs this once, as early as it can: the course's own ``.venv`` does it
 while the interpreter starts (so a kernel is right wherever it comes from, and `import rclpy` may
@@ -242,7 +242,7 @@ def _files() -> dict[str, str]:
 
 
 def _workspace() -> dict[str, str]:
-    """Return the path of the learner's workspace (`rosbeat.workspace.place`), for terminals."""
+    """Return the path of the learner's workspace (`rosbeat.workspace.location`), for terminals."""
     chosen = os.path.expanduser(os.environ.get("ROSBEAT_WORKSPACE_IN", ""))
     parent = chosen or learners_folder() or (_in_checkout("notebooks") and _in_checkout())
     return {"ROS2_WORKSPACE": os.path.join(parent, "ROS2_and_RL_Tutorials")} if parent else {}

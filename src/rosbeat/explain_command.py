@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from rosbeat.diagnosis.silence import Explanation, explain
-from rosbeat.diagnosis.situation import StaleBuild
+from rosbeat.diagnosis.topic_snapshot import StaleBuild
 from rosbeat.errors import CommandError, SessionError
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.inspection import inspect_topic

@@ -92,8 +92,8 @@ class Session(session.Session):
         """
         self._check_call("panel")
         # The widgets take a while to load, and few pages need them.
-        from rosbeat.panel.instruments import SessionInstruments
         from rosbeat.panel.panel import Panel
+        from rosbeat.panel.session_adapter import SessionInstruments
 
         world = self._world
         if world.panel is not None:

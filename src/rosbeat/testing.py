@@ -1,4 +1,4 @@
-"""The session of a test: a session that can also publish what the nodes under test are to hear."""
+"""Provide the session of a test, which can also publish messages to the nodes under test."""
 
 from __future__ import annotations
 

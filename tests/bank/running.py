@@ -12,7 +12,7 @@ from bank import workspaces
 from bank.pages import imports
 from bank.reading import Answer
 from rosbeat.exercises.check import check
-from rosbeat.exercises.draw import PAGE
+from rosbeat.exercises.random_inputs import PAGE
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Outcome
 from rosbeat.ros.scenario import observe

@@ -9,7 +9,7 @@ from bank.reading import Answer
 from rosbeat.exercises import scenarios
 from rosbeat.exercises.check import check
 from rosbeat.records import Outcome
-from rosbeat.workspace.catching_up import FOLDERS, NODES, PACKAGE, finished
+from rosbeat.workspace.prerequisites import FOLDERS, NODES, PACKAGE, finished
 from rosbeat.workspace.terminals.environment import program_environment
 
 _SOURCE, _INSTALLED = f"src/{PACKAGE}", f"install/{PACKAGE}"

@@ -12,7 +12,7 @@ IMPORTS = """
 import time
 from pathlib import Path
 from rosbeat import workspace
-from rosbeat.workspace.waiting import counting, step
+from rosbeat.workspace.busy_notice import counting, step
 """
 READS = "%%terminal one\n{}"
 COUNTS = """

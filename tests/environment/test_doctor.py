@@ -11,7 +11,7 @@ from course_tool import doctor, prepare
 from course_tool.layout import WORKSPACE, Layout
 from course_tool.problems import Problem
 from course_tool.running import Environment
-from rosbeat.workspace import place
+from rosbeat.workspace import location
 
 CLEAN = Environment({"PATH": "/usr/bin:/bin"}, (), ())
 PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
@@ -201,7 +201,7 @@ def test_where_the_workspace_lies(layout, tmp_path):
     found = doctor.workspace(layout, {})
     assert found.text == f"{layout.root}/{WORKSPACE} (page 01 makes it)"
     (tmp_path / WORKSPACE).mkdir()
-    found = doctor.workspace(layout, {place.SETTING: str(tmp_path)})
-    assert found.text == f"{tmp_path}/{place.NAME}, by ROSBEAT_WORKSPACE_IN"
-    found = doctor.workspace(layout, {place.SETTING: str(tmp_path / "not there")})
+    found = doctor.workspace(layout, {location.SETTING: str(tmp_path)})
+    assert found.text == f"{tmp_path}/{location.NAME}, by ROSBEAT_WORKSPACE_IN"
+    found = doctor.workspace(layout, {location.SETTING: str(tmp_path / "not there")})
     assert found.state == "problem"

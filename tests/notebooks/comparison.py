@@ -13,7 +13,7 @@ from nbformat import NotebookNode, from_dict
 from rosbeat.authoring.execution import BACKGROUND
 from rosbeat.authoring.pages import quiet_message, quiet_traceback
 
-#: As an outcome comes with its output; see `rosbeat.exercises.cards`.
+#: As an outcome comes with its output; see `rosbeat.exercises.outcome_display`.
 OUTCOME = "application/vnd.rosbeat.outcome+json"
 REPLACING = ("clear_output", "update_display_data")
 

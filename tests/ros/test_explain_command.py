@@ -6,7 +6,7 @@ import pytest
 
 from other_process import other_process
 from rosbeat import cli
-from rosbeat.diagnosis.situation import StaleBuild
+from rosbeat.diagnosis.topic_snapshot import StaleBuild
 from rosbeat.domains import lease_domain
 from rosbeat.environment import SHARED_DOMAINS
 from rosbeat.explain_command import explain_domain

@@ -14,8 +14,8 @@ from std_srvs.srv import Trigger
 from failed_calls import failed_call
 from nodes import Doer, Listener, Server, Talker, Ticker
 from rosbeat.errors import SessionError
-from rosbeat.ros.faults import failed_call as described
-from rosbeat.ros.faults import fault_of, suggestion
+from rosbeat.ros.exception_origin import failed_call as described
+from rosbeat.ros.exception_origin import fault_of, suggestion
 
 pytestmark = pytest.mark.ros
 

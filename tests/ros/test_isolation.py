@@ -49,7 +49,7 @@ def in_a_finally():
         time.sleep(1000)
 
 
-#: `nasty.ENDLESS` has more, each of which ends in a check: see `test_scenario.py`.
+#: `failing_answers.ENDLESS` has more, each of which ends in a check: see `test_scenario.py`.
 ENDLESS = {
     "loop": loop,
     "catches it twice": catch_it_twice,

@@ -12,7 +12,7 @@ from nodes import Doer, Speaker, Talker
 from rosbeat import Session
 from rosbeat.errors import SessionError
 from rosbeat.panel import panel as panels
-from rosbeat.panel.instruments import SessionInstruments
+from rosbeat.panel.session_adapter import SessionInstruments
 from rosbeat.ros.test_nodes import INJECTOR, TopicFault
 
 pytestmark = pytest.mark.ros

@@ -5,13 +5,13 @@ import threading
 import time
 from functools import partial
 
+import nasty  # answers that go wrong in every way
 import pytest
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
 
-import nasty  # answers that go wrong in every way
 from rosbeat.ros.scenario import Add, Pause, Publish, Remove, Resume, SetParameter, feeder, observe
 
 pytestmark = pytest.mark.ros

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rosbeat import environment
-from rosbeat.workspace import place
+from rosbeat.workspace import location
 
 MODULE = Path(environment.__file__)
 PREFIX = "/home/ada/course/.venv"
@@ -137,7 +137,7 @@ def test_terminals_know_where_the_workspace_is(monkeypatch, chosen, parent):
     monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", chosen)
     monkeypatch.delenv("ROSBEAT_STEADY_HOME", raising=False)
     expected = str(parent.expanduser() / "ROS2_and_RL_Tutorials")
-    assert environment.defaults()["ROS2_WORKSPACE"] == expected == str(place.workspace())
+    assert environment.defaults()["ROS2_WORKSPACE"] == expected == str(location.workspace())
 
 
 @pytest.mark.parametrize(

@@ -123,7 +123,8 @@ def test_every_program_there_knows_the_workspace(installed):
 def test_what_is_run_in_a_solution_there_does_not_count(installed):
     installed.new("mine")
     code = (
-        "from pathlib import Path; from rosbeat.workspace.place import is_a_solution, workspace\n"
+        "from pathlib import Path\n"
+        "from rosbeat.workspace.location import is_a_solution, workspace\n"
         f"pages = Path('solutions/{PAGE}'), Path({PAGE!r})\n"
         "print(workspace(), *map(is_a_solution, pages))"
     )

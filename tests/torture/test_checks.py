@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import pytest
 
-import nasty
+import failing_answers
 from torture.kernel import FULL, Kernel
 
 INTERRUPTS = 20 if FULL else 1
@@ -20,11 +20,11 @@ import builtins, os, sys, threading, time
 from rclpy import spin  # before rosbeat puts its own in its place
 from rosbeat import check
 from rosbeat.ros import scenario
-import nasty
+import failing_answers
 
 alive = [True]
 
-class Right(nasty.Base):
+class Right(failing_answers.Base):
     pass
 
 def told(answer):
@@ -40,11 +40,14 @@ assert print is builtins.print and builtins.len("abc") == 3
 """
 #: Cells, and how each ends.
 CELLS = {
-    "a blank": ("class A(nasty.Base):\n    ____\n", "NameError"),
-    "quit": ("told(nasty.doing(lambda _: quit()))", ""),
-    "exit": ("told(nasty.born(lambda _: exit()))", ""),
+    "a blank": ("class A(failing_answers.Base):\n    ____\n", "NameError"),
+    "quit": ("told(failing_answers.doing(lambda _: quit()))", ""),
+    "exit": ("told(failing_answers.born(lambda _: exit()))", ""),
     "a builtin replaced in the cell": ("input = sum = 3\ntold(Right)", ""),
-    "stdout taken away": ("told(nasty.doing(lambda _: setattr(sys, 'stdout', None)))", ""),
+    "stdout taken away": (
+        "told(failing_answers.doing(lambda _: setattr(sys, 'stdout', None)))",
+        "",
+    ),
     "a thread in the cell": (
         "def go():\n    while alive:\n        time.sleep(0.01); print(end='')\n"
         "threading.Thread(target=go, name='nasty').start()\ntold(Right)",
@@ -55,8 +58,11 @@ CELLS = {
         "threading.Thread(target=go, name='nasty').start()\ntold(Right)",
         "",
     ),
-    "spinning at birth, by rclpy's own function": ("seen(nasty.born(spin))", ""),
-    "an interrupt of its own": ("told(nasty.doing(nasty.raising(KeyboardInterrupt())))", ""),
+    "spinning at birth, by rclpy's own function": ("seen(failing_answers.born(spin))", ""),
+    "an interrupt of its own": (
+        "told(failing_answers.doing(failing_answers.raising(KeyboardInterrupt())))",
+        "",
+    ),
     "a folder that is gone": (
         "import tempfile\nplace = tempfile.mkdtemp(); os.chdir(place); os.rmdir(place)\n"
         "told(Right)\nos.chdir('/')",
@@ -69,7 +75,7 @@ SOME = ("loop in a callback", "loop that catches everything", "prints",
 
 def groups():
     """Some endless ones for each kernel, so that no test takes long."""
-    names = list(nasty.ENDLESS) if FULL else list(SOME)
+    names = list(failing_answers.ENDLESS) if FULL else list(SOME)
     return [names[at : at + 4] for at in range(0, len(names), 4)]
 
 
@@ -123,7 +129,7 @@ def tell():
     os.read(told_ready, 1); out.write("go"); out.flush()
 out = sys.stdout
 threading.Thread(target=tell, daemon=True).start()
-scenario.observe(nasty.doing(act), 5, deadline=60)
+scenario.observe(failing_answers.doing(act), 5, deadline=60)
 """
     right = kernel.run(PROBE).text
     for number in range(INTERRUPTS):

@@ -31,9 +31,9 @@ from rosbeat.errors import LessonError
 
 KERNEL_NAME = "python3"
 DISPLAY_NAME = "Python 3 (ipykernel)"
-#: Names the folder of a page's own workspace (`rosbeat.workspace.place` reads it).
+#: Names the folder of a page's own workspace (`rosbeat.workspace.location` reads it).
 STEADY_HOME = "ROSBEAT_STEADY_HOME"
-#: Names the page in its kernel, as Jupyter's server does (`rosbeat.workspace.place` reads it).
+#: Names the page in its kernel, as Jupyter's server does (`rosbeat.workspace.location` reads it).
 PAGE = "JPY_SESSION_NAME"
 #: Seconds of wall time that one cell may take.
 CELL_SECONDS = 60.0

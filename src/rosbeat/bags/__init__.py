@@ -7,7 +7,8 @@
 - `stuck`, `drift`, `dropouts` and `with_nan` are faults, applied with `inject` or on replay
   (`faults`).
 
-`serialization` converts messages to bytes and back; `inputs` reads what these functions are given.
+`serialization` converts messages to bytes and back; `arguments` reads what these functions are
+given.
 Names load when they are first used (PEP 562): only `replay` needs ROS.
 """
 

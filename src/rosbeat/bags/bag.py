@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 from rosbags.interfaces import ConnectionExtRosbag2, Qos, QosTime
 from rosbags.rosbag2 import Reader
 
-from rosbeat.bags.inputs import known_topic, path_of, reason
+from rosbeat.bags.arguments import known_topic, path_of, reason
 from rosbeat.bags.serialization import from_bytes, recorded_types
 from rosbeat.errors import BagError, RosbeatError, called_as
 from rosbeat.records import NANOSECONDS, Endpoint, GraphSnapshot, Observation, QoS, Sample

@@ -14,7 +14,7 @@ from math import inf, isfinite, isnan, nan
 from random import Random
 from typing import Any
 
-from rosbeat.bags.inputs import Run, full_name, known_topic, observation_of
+from rosbeat.bags.arguments import Run, full_name, known_topic, observation_of
 from rosbeat.errors import BagError, called_as
 from rosbeat.records import NANOSECONDS, Sample
 

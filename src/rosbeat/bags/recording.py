@@ -23,8 +23,8 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.rosbag2.errors import WriterError
 from rosbags.typesys.store import Typestore
 
+from rosbeat.bags.arguments import Run, observation_of, path_of, reason, topic_types
 from rosbeat.bags.bag import PUBLISHERS, SEED, SESSION_NS, Bag
-from rosbeat.bags.inputs import Run, observation_of, path_of, reason, topic_types
 from rosbeat.bags.serialization import installed_types, serialized
 from rosbeat.errors import BagError, called_as
 from rosbeat.records import NANOSECONDS, Observation, QoS

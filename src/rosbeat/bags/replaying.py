@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import groupby
 
+from rosbeat.bags.arguments import Run, observation_of, topic_types
 from rosbeat.bags.bag import UNKNOWN
 from rosbeat.bags.faults import Change, inject
-from rosbeat.bags.inputs import Run, observation_of, topic_types
 from rosbeat.bags.serialization import installed_types, serialized
 from rosbeat.errors import called_as
 from rosbeat.records import Observation, QoS, Sample

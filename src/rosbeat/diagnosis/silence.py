@@ -11,7 +11,7 @@ from textwrap import fill
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis, in_html
 from rosbeat.diagnosis.qos import incompatible, rule, words
-from rosbeat.diagnosis.situation import (
+from rosbeat.diagnosis.topic_snapshot import (
     BLOCKED,
     ENDED,
     NOT_ADDED,

@@ -1,4 +1,4 @@
-"""Say what a command that failed means, and one that went wrong without saying so.
+"""Explain commands that failed, and commands that went wrong without an error.
 
 `_RULES` is one table: the first rule that recognises a situation decides, and a situation that no
 rule recognises gets no meaning. Most rules are rows; what a row cannot express is a function.

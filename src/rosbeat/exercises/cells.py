@@ -17,7 +17,7 @@ from textwrap import shorten
 from typing import Any, TypeAlias
 
 from rosbeat.errors import ExerciseError, RosbeatError
-from rosbeat.exercises.withheld import Withheld
+from rosbeat.exercises.deferred_output import Withheld
 
 #: IPython's shell, and what it tells about a cell; neither carries types.
 Shell: TypeAlias = Any
@@ -339,7 +339,7 @@ def _file_of(source: str) -> Path | None:
     if found is None:
         return None
     # Importing the workspace makes its commands known, and a page does that itself.
-    from rosbeat.workspace.place import workspace
+    from rosbeat.workspace.location import workspace
     from rosbeat.workspace.saving import locate
 
     try:

@@ -12,18 +12,18 @@ from uuid import uuid4
 from IPython.display import display, update_display
 
 from rosbeat.errors import ExerciseError, called_as
-from rosbeat.exercises.cards import LOOKS, Shown, words
 from rosbeat.exercises.cells import NOTHING, Cells, cells_of, worked_on
 from rosbeat.exercises.exercise import PASSED, Exercise, not_attempted
 from rosbeat.exercises.hint import are_here, next_hint, reveal
+from rosbeat.exercises.outcome_display import LOOKS, Shown, words
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.exercises.scenarios import Answer
 from rosbeat.exercises.share import share
 from rosbeat.records import Outcome
-from rosbeat.workspace.place import GRADED
-from rosbeat.workspace.waiting import counting
+from rosbeat.workspace.busy_notice import counting
+from rosbeat.workspace.location import GRADED
 
 if TYPE_CHECKING:
     from rosbeat.viz import Picture
@@ -129,7 +129,7 @@ class CheckCard(Shown):
 
     def _ipython_display_(self) -> None:
         # The widgets take a while to load, and only a notebook in a browser shows them.
-        from rosbeat.exercises.live import ExerciseWidget
+        from rosbeat.exercises.widget_actions import ExerciseWidget
 
         exercise, display_id = self.outcome.exercise, f"rosbeat-check-{uuid4().hex}"
 

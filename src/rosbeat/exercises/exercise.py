@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
+from rosbeat.diagnosis.connections import why_raised
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import why_raised
-from rosbeat.exercises.draw import PAGE, Draw
+from rosbeat.exercises.random_inputs import PAGE, Draw
 from rosbeat.records import Fault, Observation, Outcome
 
 if TYPE_CHECKING:

@@ -17,9 +17,9 @@ from textwrap import wrap
 from typing import Any
 
 from rosbeat.errors import ExerciseError, RecordError
-from rosbeat.exercises.cards import words
-from rosbeat.exercises.draw import PAGE, Draw
 from rosbeat.exercises.model import as_float32
+from rosbeat.exercises.outcome_display import words
+from rosbeat.exercises.random_inputs import PAGE, Draw
 from rosbeat.exercises.scenarios import station
 from rosbeat.records_json import from_json
 

@@ -8,9 +8,9 @@ from textwrap import indent
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import ExerciseError, called_as
-from rosbeat.exercises.cards import HELP, code, framed, words
 from rosbeat.exercises.cells import cells_of, worked_on
 from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.outcome_display import HELP, code, framed, words
 from rosbeat.exercises.progress import Standing, progress_file
 from rosbeat.exercises.registry import find, which_exercise
 

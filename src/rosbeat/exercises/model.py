@@ -1,4 +1,4 @@
-"""Judge what a node did by models: of a right one, and of those that somebody misunderstood.
+"""Judge what a node did by models: the right model, and models of misunderstandings.
 
 A wrong answer is a model, too. A judge simulates the right model and each *suspect*, which is a
 small model of a misunderstanding, on what the answer was fed. A suspect that does exactly what the
@@ -21,9 +21,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeAlias
 
+from rosbeat.diagnosis.connections import Wire
 from rosbeat.diagnosis.exceptions import line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import Wire
 from rosbeat.exercises.exercise import BLANK, Verdict, not_attempted
 from rosbeat.exercises.scenarios import Report, Value
 from rosbeat.records import NANOSECONDS, Fault, Observation, Sample

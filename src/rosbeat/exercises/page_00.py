@@ -1,4 +1,4 @@
-"""Page 00, hear the heartbeat: a reader among reporters, and a reporter alone."""
+"""Page 00, hear the heartbeat: a subscriber among several publishers, and a publisher alone."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ from collections import Counter
 from collections.abc import Sequence
 from functools import partial
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     diagnose_beat,
@@ -17,6 +16,7 @@ from rosbeat.exercises.model import (
     explain_subscription,
     samples_on,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, feeder, observe
 from rosbeat.records import Observation
 

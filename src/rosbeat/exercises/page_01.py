@@ -25,8 +25,8 @@ from rosbeat.exercises.scenarios import (
     typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
-from rosbeat.workspace.catching_up import FOLDERS
-from rosbeat.workspace.place import NAME, workspace
+from rosbeat.workspace.location import NAME, workspace
+from rosbeat.workspace.prerequisites import FOLDERS
 
 #: Returns the words of each command in a line; a backslash stays to be seen.
 _commands = partial(commands_in, escape="")

@@ -1,4 +1,4 @@
-"""Page 03, write a publisher: another sensor's beat, a walk between two limits, a node alone."""
+"""Page 03, write a publisher: a sensor of another period, readings within limits, a lone node."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from math import isfinite
 from operator import sub
 from typing import Any
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     diagnose_beat,
@@ -20,6 +19,7 @@ from rosbeat.exercises.model import (
     explain_subscription,
     samples_on,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, drift, observe
 from rosbeat.records import Observation
 

@@ -8,9 +8,8 @@ from functools import partial
 from itertools import chain, combinations, pairwise
 from math import inf
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     STATUSES,
@@ -26,6 +25,7 @@ from rosbeat.exercises.model import (
     tells_apart,
     track,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, feeder, observe
 from rosbeat.records import Observation
 

@@ -9,9 +9,8 @@ from functools import lru_cache, partial
 from itertools import product
 from typing import Any, NamedTuple
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import (
     STATUSES,
@@ -29,6 +28,7 @@ from rosbeat.exercises.model import (
     tells_apart,
     track,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, Report, Value, feeder, observe, publishing, report
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, QoS
 

@@ -13,10 +13,9 @@ from functools import partial
 from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import POLICY_ALONE, incompatible, rule
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     Mismatch,
@@ -31,6 +30,7 @@ from rosbeat.exercises.model import (
     track,
     variants,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, Value, adding, feeder, listener, observe, publishing
 from rosbeat.records import NANOSECONDS, Endpoint, Observation, QoS
 

@@ -10,9 +10,8 @@ from functools import partial
 from itertools import accumulate, cycle, pairwise
 from typing import Any, NamedTuple
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     STATUSES,
@@ -32,6 +31,7 @@ from rosbeat.exercises.model import (
     suspects,
     tells_apart,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, feeder, observe, publishing, started
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Sample
 

@@ -19,9 +19,8 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from rosbeat import bags
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, before_judging, passed
 from rosbeat.exercises.model import (
     ZERO_IS_FALSE,
@@ -42,6 +41,7 @@ from rosbeat.exercises.model import (
     tells_apart,
     variants,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, Report, observe, report
 from rosbeat.records import NANOSECONDS, Observation, Sample
 

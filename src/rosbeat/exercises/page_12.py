@@ -15,10 +15,9 @@ from itertools import accumulate, chain, count
 from math import inf, isnan, nan
 from typing import Any
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     Mismatch,
@@ -32,6 +31,7 @@ from rosbeat.exercises.model import (
     tells_apart,
     track,
 )
+from rosbeat.exercises.random_inputs import Draw
 from rosbeat.exercises.scenarios import Answer, Value, feeder, observe
 from rosbeat.records import Observation
 

@@ -16,11 +16,10 @@ from itertools import pairwise
 from math import inf
 from typing import Any
 
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
-from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.exercise import (
     FAILED,
     NEW_TO_ME,
@@ -57,6 +56,7 @@ from rosbeat.exercises.model import (
     suspects,
     variants,
 )
+from rosbeat.exercises.random_inputs import PAGE
 from rosbeat.exercises.scenarios import (
     Answer,
     Value,

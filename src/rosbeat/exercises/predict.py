@@ -10,9 +10,9 @@ from functools import partial
 from typing import Any
 
 from rosbeat.errors import called_as
-from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
 from rosbeat.exercises.cells import cells_of
-from rosbeat.exercises.withheld import Withheld
+from rosbeat.exercises.deferred_output import Withheld
+from rosbeat.exercises.outcome_display import OPEN, RIGHT, WRONG, framed, words
 
 # The one number, range, or yes or no, that a text says: `about 26`, `20-30`, `No, it does not`.
 
@@ -226,7 +226,7 @@ class OpenPrediction(Prediction):
 
     def _ipython_display_(self) -> None:
         # The widgets take a while to load, and only a notebook in a browser shows them.
-        from rosbeat.exercises.live import ExerciseWidget
+        from rosbeat.exercises.widget_actions import ExerciseWidget
 
         def guess(content: Mapping[str, Any]) -> str:
             made = self.answer(str(content.get("guess", "")))

@@ -15,13 +15,13 @@ from msgspec import Meta
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError, called_as
-from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
+from rosbeat.exercises.outcome_display import LOOKS
 from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
-from rosbeat.workspace.place import is_a_solution, page_file, steady_home, workspace_parent
+from rosbeat.workspace.location import is_a_solution, page_file, steady_home, workspace_parent
 from rosbeat.workspace.saving import only_writer, write
 
 # How far somebody is with one exercise, as plain data.

@@ -17,12 +17,12 @@ from html import escape
 from pathlib import Path
 from threading import Event, Lock, Thread
 
-from rosbeat.exercises.cards import LOOKS, RIGHT
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.outcome_display import LOOKS, RIGHT
 from rosbeat.exercises.registry import EXERCISES, Page
 from rosbeat.records import Outcome
-from rosbeat.viz.words import count, listing, sentence_case
-from rosbeat.workspace.place import steady_home
+from rosbeat.viz.text_format import count, listing, sentence_case
+from rosbeat.workspace.location import steady_home
 
 #: Seconds from one look at the file to the next, while a list is shown.
 PERIOD = 1.0

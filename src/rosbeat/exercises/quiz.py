@@ -16,8 +16,8 @@ from uuid import uuid4
 from IPython.display import display, update_display
 
 from rosbeat.errors import ExerciseError, called_as
-from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
 from rosbeat.exercises.cells import cells_of
+from rosbeat.exercises.outcome_display import OPEN, RIGHT, WRONG, framed, words
 from rosbeat.exercises.predict import is_blank
 from rosbeat.exercises.registry import this_page
 
@@ -168,7 +168,7 @@ class QuizCard(Quiz):
 
     def _ipython_display_(self) -> None:
         # The widgets take a while to load, and only a notebook in a browser shows them.
-        from rosbeat.exercises.live import ExerciseWidget
+        from rosbeat.exercises.widget_actions import ExerciseWidget
 
         asked, display_id = list(self.asked), f"rosbeat-quiz-{uuid4().hex}"
 

@@ -27,7 +27,7 @@ from rosbeat.exercises import (
 )
 from rosbeat.exercises.cells import worked_on
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.workspace.place import page_number
+from rosbeat.workspace.location import page_number
 
 #: With this page the package is finished; those after it come in any order that `needs` allows.
 _LAST_CORE_PAGE = "06"

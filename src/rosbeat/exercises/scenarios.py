@@ -1,4 +1,4 @@
-"""Run or look at an answer: the means that scenarios of several pages share."""
+"""Run or inspect an answer: what the scenarios of several pages share."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from rosbeat.diagnosis.wires import Wire
+from rosbeat.diagnosis.connections import Wire
 from rosbeat.errors import ExerciseError
 from rosbeat.records import Observation, QoS
 from rosbeat.ros.isolation import Deadline

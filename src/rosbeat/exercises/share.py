@@ -1,4 +1,4 @@
-"""Share with a class where a learner is, if the learner wants that: `rosbeat share`.
+"""Share a learner's progress with a class, if the learner wants to: `rosbeat share`.
 
 Sharing is off until a learner turns it on. Then each check adds one line to a file of the learner's
 own in the folder of the class: exercise, status, named mistake and time. The file's name is random,
@@ -30,7 +30,7 @@ from rosbeat.exercises.exercise import NOT_ATTEMPTED
 from rosbeat.exercises.progress import progress_file
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
-from rosbeat.viz.words import count
+from rosbeat.viz.text_format import count
 from rosbeat.workspace.saving import write
 
 #: Names the folder of the class on a computer that a class shares.

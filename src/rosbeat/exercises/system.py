@@ -34,8 +34,8 @@ from rosbeat.ros.programs import (
     private_domain,
     program_environment,
 )
+from rosbeat.workspace.busy_notice import step
 from rosbeat.workspace.packages import Package
-from rosbeat.workspace.waiting import step
 
 if TYPE_CHECKING:
     from rosbeat.viz import Picture

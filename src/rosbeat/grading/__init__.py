@@ -3,13 +3,13 @@
 `docs/architecture.md` follows one answer through the whole pipeline. `commands` contains the entry
 points of `rosbeat release`, `collect` and `grade`.
 
-- Input: `submissions` and `uploads` (folders, zips), `notebook` (pages, submitted and the
+- Input: `submissions` and `archives` (folders, zips), `notebook` (pages, submitted and the
   course's), `roster`, `deadlines`, `files` (CSV, safe names, whole writes).
 - Running: `answers` and `jobs` (which code is run), `run` (a whole run), `worker`, `sandbox`,
-  `linux` (system calls), `observing`, `cluster`.
+  `system_calls`, `observing`, `cluster`.
 - Judging: `judging`, `ledger` (judged answers, so that a run can resume).
-- Marks: `marks` (with what exercises are worth), `manual` (points given by hand), `results`,
-  `tables` (Moodle, Canvas), `groups`.
+- Marks: `marks` (with what exercises are worth), `manual_marks` (points given by hand), `results`,
+  `csv_exports` (Moodle, Canvas), `groups`.
 - Reports: `report`, `feedback`, `traces`, `rendering` with `templates/`, and `review` (the page on
   which an instructor marks by eye).
 - For the class: `release` creates the folder that learners get. `class_folder` reads what learners

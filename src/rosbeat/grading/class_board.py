@@ -35,7 +35,7 @@ from rosbeat.grading.rendering import Segment, render
 from rosbeat.grading.traces import Picture, picture
 from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
 from rosbeat.records_json import to_json
-from rosbeat.viz.words import count
+from rosbeat.viz.text_format import count
 
 #: Seconds within which a mistake counts, checks after which a learner is stuck, mistakes shown.
 WINDOW, STUCK, SHOWN = 10 * 60, 3, 3

@@ -23,7 +23,7 @@ from rosbeat.errors import GradingError, RecordError
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.exercises.share import DAY, FILE_NAME, LARGEST, LONGEST_NAME
 from rosbeat.records_json import from_json
-from rosbeat.viz.words import count
+from rosbeat.viz.text_format import count
 
 #: Entries of the folder that are looked at, files of one owner, and letters of a line.
 _ENTRIES, _FILES, _LINE = 20_000, 4, 400

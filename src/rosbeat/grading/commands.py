@@ -35,8 +35,8 @@ from rosbeat.grading.files import printable, write_whole
 from rosbeat.grading.jobs import Evidence, Job
 from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version, seed_of
-from rosbeat.grading.manual import FILE as MANUAL
-from rosbeat.grading.manual import apply_manual, read_manual
+from rosbeat.grading.manual_marks import FILE as MANUAL
+from rosbeat.grading.manual_marks import apply_manual, read_manual
 from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
 from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
 from rosbeat.grading.release import Released, catches_up, release
@@ -54,8 +54,8 @@ from rosbeat.grading.submissions import (
     require_submissions,
 )
 from rosbeat.records_json import from_json, to_json
-from rosbeat.viz.words import count
-from rosbeat.workspace.place import course_root
+from rosbeat.viz.text_format import count
+from rosbeat.workspace.location import course_root
 
 #: Exit code: all is written, and something waits for a person.
 WAITS = 3

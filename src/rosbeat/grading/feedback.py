@@ -25,8 +25,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from markupsafe import Markup
 
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.exercises.cards import RIGHT, WRONG
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.outcome_display import RIGHT, WRONG
 from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.files import file_name
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution

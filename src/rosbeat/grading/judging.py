@@ -12,9 +12,9 @@ from typing import Any
 
 from rosbeat.diagnosis.exceptions import first_sentence
 from rosbeat.errors import RecordError
-from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
+from rosbeat.exercises.random_inputs import PAGE
 from rosbeat.grading.jobs import FORGED, LOST, Evidence
 from rosbeat.grading.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome

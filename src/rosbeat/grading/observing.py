@@ -23,10 +23,10 @@ from typing import Any
 
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import scenario
-from rosbeat.grading import linux
+from rosbeat.grading import system_calls
 from rosbeat.grading.jobs import Job
-from rosbeat.workspace.place import PAGE, STEADY
-from rosbeat.workspace.place import workspace as workspace_folder
+from rosbeat.workspace.location import PAGE, STEADY
+from rosbeat.workspace.location import workspace as workspace_folder
 
 #: The file name of the answer's cell, by which its lines are found.
 CELL = "<answer>"
@@ -154,7 +154,7 @@ def _replayed(job: Job) -> Any:  # noqa: ANN401 - whatever a page hands over
     answer among them, in a workspace as the pages before leave it.
     """
     # What is typed in a terminal is another process, and may not look into this one.
-    linux.prctl(linux.PR_SET_DUMPABLE, 0)
+    system_calls.prctl(system_calls.PR_SET_DUMPABLE, 0)
     # A steady home, as when pages are built: what it prints names no machine and no person.
     os.environ[STEADY] = str(Path.cwd() / "home")
     _put(job.files, workspace_folder())

@@ -27,7 +27,7 @@ from rosbeat.grading.marks import Points, read_points
 from rosbeat.grading.notebook import CoursePage, course_pages, read_notebook
 from rosbeat.grading.submissions import MARKER
 from rosbeat.records_json import from_json, to_json
-from rosbeat.workspace.catching_up import NODES, PACKAGE
+from rosbeat.workspace.prerequisites import NODES, PACKAGE
 
 _FORMAT: Final = 1
 POINTS = "points.csv"

@@ -19,12 +19,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from rosbeat.diagnosis.mistakes import in_html
-from rosbeat.exercises.cards import LOOKS, clipped
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.outcome_display import LOOKS, clipped
 from rosbeat.exercises.registry import PAGES
 from rosbeat.grading.files import number, printable
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Mark
-from rosbeat.viz.words import count
+from rosbeat.viz.text_format import count
 
 #: Characters of a text that needs no clipping, whatever it is.
 _SHORT = 200

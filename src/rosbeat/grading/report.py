@@ -27,7 +27,7 @@ from rosbeat.grading.rendering import (
     render,
 )
 from rosbeat.grading.submissions import own_path
-from rosbeat.viz.words import count
+from rosbeat.viz.text_format import count
 
 #: Exercises that are named with a mistake; the table has all of them.
 _PLACES = 6

@@ -16,17 +16,17 @@ from typing import Any
 
 from rosbeat.errors import RecordError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.grading.csv_exports import canvas_csv, grades_csv, moodle_csv
 from rosbeat.grading.feedback import FOLDER as FEEDBACK
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
 from rosbeat.grading.files import number, printable, write_whole
-from rosbeat.grading.manual import FILE as MANUAL
-from rosbeat.grading.manual import write_template
+from rosbeat.grading.manual_marks import FILE as MANUAL
+from rosbeat.grading.manual_marks import write_template
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
 from rosbeat.grading.report import class_report
 from rosbeat.grading.submissions import Remark
-from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
 from rosbeat.records_json import as_data, from_json
-from rosbeat.viz.words import count, sentence_case
+from rosbeat.viz.text_format import count, sentence_case
 
 RESULTS = "results.json"
 FORMAT = "rosbeat results"

@@ -28,7 +28,7 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.feedback import code_of
 from rosbeat.grading.files import cell, number, write_whole
 from rosbeat.grading.groups import Group, groups_of
-from rosbeat.grading.manual import FILE, apply_manual, meant, points_by_hand, read_manual
+from rosbeat.grading.manual_marks import FILE, apply_manual, meant, points_by_hand, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
 from rosbeat.grading.rendering import render
 from rosbeat.grading.results import summary

@@ -40,7 +40,7 @@ from rosbeat.grading.notebook import Cell, CoursePage
 from rosbeat.grading.submissions import REACHES_INSIDE, Collection, HandedIn, Remark, Submission
 from rosbeat.grading.worker import UNSAFE, environment
 from rosbeat.records import Observation, Outcome
-from rosbeat.workspace.catching_up import catch_up
+from rosbeat.workspace.prerequisites import catch_up
 
 Key = TypeVar("Key")
 #: Has the jobs of submissions done, and gives evidence as it comes.

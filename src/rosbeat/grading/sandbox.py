@@ -39,7 +39,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from rosbeat.errors import GradingError
-from rosbeat.grading import linux
+from rosbeat.grading import system_calls
 
 MB = 1_000_000
 
@@ -143,11 +143,11 @@ def become_able() -> None:
     """
     if os.getuid() != 0:
         user, group = os.getuid(), os.getgid()
-        linux.unshare(linux.CLONE_NEWUSER | linux.CLONE_NEWNS)
+        system_calls.unshare(system_calls.CLONE_NEWUSER | system_calls.CLONE_NEWNS)
         _map_ids(0, user, group)
         folder = os.path.dirname(os.path.realpath(sys.executable))
-        linux.mount("none", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
-        linux.mount(folder, folder, flags=linux.MS_BIND)
+        system_calls.mount("none", "/", flags=system_calls.MS_REC | system_calls.MS_PRIVATE)
+        system_calls.mount(folder, folder, flags=system_calls.MS_BIND)
         _make_read_only(folder)
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
@@ -170,8 +170,13 @@ _LOOK = 0.05
 #: `__WALL` of wait(2): also children that say nothing when they end.
 _ALL = 0x40000000
 _NEW = (
-    *(linux.CLONE_NEWNS, linux.CLONE_NEWPID, linux.CLONE_NEWNET, linux.CLONE_NEWIPC),
-    linux.CLONE_NEWUTS,
+    *(
+        system_calls.CLONE_NEWNS,
+        system_calls.CLONE_NEWPID,
+        system_calls.CLONE_NEWNET,
+        system_calls.CLONE_NEWIPC,
+    ),
+    system_calls.CLONE_NEWUTS,
 )
 #: Lines of `/proc/PID/status` that count as memory, in KiB: pages of its own and shared ones, and
 #: tables of pages. Pages of files, as libraries, do not count.
@@ -208,7 +213,7 @@ class Sandbox:
         self._proc = os.open("/proc", os.O_RDONLY | os.O_DIRECTORY)
         self._init = _Init() if isolated else None
         if self._init is None:
-            linux.prctl(linux.PR_SET_CHILD_SUBREAPER, 1)
+            system_calls.prctl(system_calls.PR_SET_CHILD_SUBREAPER, 1)
             return
         try:
             _isolate(view, self._init)
@@ -247,7 +252,7 @@ class Sandbox:
             self._become(watch, work, folder)
         watch.forked()
         try:
-            descriptor = linux.pidfd_open(child)
+            descriptor = system_calls.pidfd_open(child)
             watch.listen(descriptor, self._memory)
             os.close(descriptor)
         finally:
@@ -263,11 +268,11 @@ class Sandbox:
             environment = self._view.environment
             if self._init is not None:
                 _give_up_rights()
-                linux.forbid_calls()
+                system_calls.forbid_calls()
             else:
                 environment = {**environment, "HOME": folder, "TMPDIR": folder}
             # After that, for who changes its rights is forgotten by this.
-            linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+            system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
             result = _settle(ends, environment)
             watch.limits.apply()
             # The last thing: from here on nothing can say that the sandbox was not made.
@@ -599,13 +604,13 @@ def _be_init(asked: int, answers: int) -> NoReturn:
         for begin, end in ((0, low), (low + 1, high), (high + 1, os.sysconf("SC_OPEN_MAX"))):
             os.closerange(begin, end)
         with suppress(OSError):  # some containers do not let anybody; little needs it
-            flags = linux.MS_NOSUID | linux.MS_NODEV | linux.MS_NOEXEC
-            linux.mount("proc", f"{_ROOT}/proc", "proc", flags)
+            flags = system_calls.MS_NOSUID | system_calls.MS_NODEV | system_calls.MS_NOEXEC
+            system_calls.mount("proc", f"{_ROOT}/proc", "proc", flags)
         _give_up_rights()
         # After that, for who changes its rights is forgotten by this.
-        linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+        system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
         # Nobody in there may look into this process, which could end the others.
-        linux.prctl(linux.PR_SET_DUMPABLE, 0)
+        system_calls.prctl(system_calls.PR_SET_DUMPABLE, 0)
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         # Whatever loses its parent in there becomes its child, and is cleared away when it ends.
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)
@@ -628,20 +633,31 @@ def _isolate(view: View, init: _Init) -> None:
     flags = 0
     for one in _NEW:
         flags |= one
-    linux.unshare(flags)
-    linux.limit_tcp(_MOST_OF_TCP)
+    system_calls.unshare(flags)
+    system_calls.limit_tcp(_MOST_OF_TCP)
     _make_root(_ROOT, view.readable, view.hidden)
     os.chdir("/")
     init.start()
-    linux.pivot_root(_ROOT, _ROOT + _OLD)
+    system_calls.pivot_root(_ROOT, _ROOT + _OLD)
     os.chdir("/")
-    linux.unmount(_OLD)
+    system_calls.unmount(_OLD)
     os.rmdir(_OLD)
-    linux.loopback_up()
+    system_calls.loopback_up()
     socket.sethostname("sandbox")
     with suppress(OSError):
-        linux.mount("devpts", "/dev/pts", "devpts", linux.MS_NOSUID | linux.MS_NOEXEC, _TERMINALS)
-    linux.mount("none", "/", "", linux.MS_REMOUNT | linux.MS_BIND | linux.MS_RDONLY | _PLAIN)
+        system_calls.mount(
+            "devpts",
+            "/dev/pts",
+            "devpts",
+            system_calls.MS_NOSUID | system_calls.MS_NOEXEC,
+            _TERMINALS,
+        )
+    system_calls.mount(
+        "none",
+        "/",
+        "",
+        system_calls.MS_REMOUNT | system_calls.MS_BIND | system_calls.MS_RDONLY | _PLAIN,
+    )
 
 
 def _give_up_rights() -> None:
@@ -651,14 +667,14 @@ def _give_up_rights() -> None:
         os.setresgid(_NOBODY, _NOBODY, _NOBODY)
         os.setresuid(_NOBODY, _NOBODY, _NOBODY)
         # Who has changed its user may not look into /proc/self until this is said.
-        linux.prctl(linux.PR_SET_DUMPABLE, 1)
+        system_calls.prctl(system_calls.PR_SET_DUMPABLE, 1)
     user, group = os.getuid(), os.getgid()
     if os.path.exists("/proc/self/uid_map"):
-        linux.unshare(linux.CLONE_NEWUSER)
+        system_calls.unshare(system_calls.CLONE_NEWUSER)
         _map_ids(_INSIDE, user, group)
         with suppress(OSError):
             _write("/proc/sys/user/max_user_namespaces", "0")
-    linux.drop_capabilities()
+    system_calls.drop_capabilities()
 
 
 def _is_mapped() -> bool:
@@ -697,20 +713,20 @@ _TERMINALS = "newinstance,ptmxmode=0666,mode=0620"
 #: Where something is mounted before it gets its place, and where the machine's root is left.
 _FRESH, _OLD = "/fresh", "/old"
 _LOCKED = {
-    os.ST_NOSUID: linux.MS_NOSUID,
-    os.ST_NODEV: linux.MS_NODEV,
-    os.ST_NOEXEC: linux.MS_NOEXEC,
-    os.ST_NOATIME: linux.MS_NOATIME,
-    os.ST_NODIRATIME: linux.MS_NODIRATIME,
-    os.ST_RELATIME: linux.MS_RELATIME,
+    os.ST_NOSUID: system_calls.MS_NOSUID,
+    os.ST_NODEV: system_calls.MS_NODEV,
+    os.ST_NOEXEC: system_calls.MS_NOEXEC,
+    os.ST_NOATIME: system_calls.MS_NOATIME,
+    os.ST_NODIRATIME: system_calls.MS_NODIRATIME,
+    os.ST_RELATIME: system_calls.MS_RELATIME,
 }
-_PLAIN = linux.MS_NOSUID | linux.MS_NODEV
+_PLAIN = system_calls.MS_NOSUID | system_calls.MS_NODEV
 
 
 def _make_root(root: str, readable: Iterable[str], hidden: Iterable[str]) -> None:
     """Build what works see, on a folder; needs a mount namespace of one's own."""
-    linux.mount("none", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
-    linux.mount("tmpfs", root, "tmpfs", _PLAIN, "size=4m,mode=755")
+    system_calls.mount("none", "/", flags=system_calls.MS_REC | system_calls.MS_PRIVATE)
+    system_calls.mount("tmpfs", root, "tmpfs", _PLAIN, "size=4m,mode=755")
     for path in (*_SCRATCH, "/dev/pts", "/proc", _FRESH, _OLD):
         os.makedirs(root + path, exist_ok=True)
     for path in (*_SYSTEM, *(f"/etc/{name}" for name in _ETC), *_outermost(readable)):
@@ -719,10 +735,12 @@ def _make_root(root: str, readable: Iterable[str], hidden: Iterable[str]) -> Non
     Path(f"{root}/etc/passwd").write_text(_USER, encoding="ascii")
     for path in hidden:
         if os.path.isdir(root + path):
-            linux.mount("tmpfs", root + path, "tmpfs", _PLAIN | linux.MS_RDONLY, "size=4k,mode=755")
+            system_calls.mount(
+                "tmpfs", root + path, "tmpfs", _PLAIN | system_calls.MS_RDONLY, "size=4k,mode=755"
+            )
     for name in _DEVICES:
         Path(f"{root}/dev/{name}").touch()
-        linux.mount(f"/dev/{name}", f"{root}/dev/{name}", flags=linux.MS_BIND)
+        system_calls.mount(f"/dev/{name}", f"{root}/dev/{name}", flags=system_calls.MS_BIND)
     links = (("fd", "/proc/self/fd"), ("stdin", "fd/0"), ("stdout", "fd/1"), ("ptmx", "pts/ptmx"))
     for name, target in links:
         os.symlink(target, f"{root}/dev/{name}")
@@ -746,7 +764,7 @@ def _show(root: str, path: str) -> None:
     if not os.path.exists(path) or (os.path.exists(root + path) and os.path.ismount(root + path)):
         return
     _make_target(path, root + path)
-    linux.mount(path, root + path, flags=linux.MS_BIND | linux.MS_REC)
+    system_calls.mount(path, root + path, flags=system_calls.MS_BIND | system_calls.MS_REC)
     points = list(_mounted_below(root + path))
     if not points:
         raise OSError(errno.ENOENT, f"what is mounted at {path} cannot be told")
@@ -765,8 +783,10 @@ def _make_read_only(point: str) -> None:
     # What the mount forbids already has to be forbidden again, or the kernel refuses.
     found = os.statvfs(point).f_flag
     locked = sum(flag for bit, flag in _LOCKED.items() if found & bit)
-    flags = linux.MS_REMOUNT | linux.MS_BIND | linux.MS_RDONLY | _PLAIN | locked
-    linux.mount("none", point, "", flags)
+    flags = (
+        system_calls.MS_REMOUNT | system_calls.MS_BIND | system_calls.MS_RDONLY | _PLAIN | locked
+    )
+    system_calls.mount("none", point, "", flags)
 
 
 def _mounted_below(path: str) -> Iterator[str]:
@@ -783,11 +803,11 @@ def _new_scratch(readable: Iterable[str]) -> None:
     options = f"size={_MOST_SCRATCH},nr_inodes=20000,mode=1777"
     for path in _SCRATCH:
         with suppress(OSError):  # the first time there is none
-            linux.unmount(path)
-        linux.mount("tmpfs", _FRESH, "tmpfs", _PLAIN, options)
+            system_calls.unmount(path)
+        system_calls.mount("tmpfs", _FRESH, "tmpfs", _PLAIN, options)
         for one in _outermost(readable):
             if one.startswith(f"{path}/") and os.path.exists(one):
                 target = _FRESH + one.removeprefix(path)
                 _make_target(one, target)
-                linux.mount(one, target, flags=linux.MS_BIND | linux.MS_REC)
-        linux.mount(_FRESH, path, flags=linux.MS_MOVE)
+                system_calls.mount(one, target, flags=system_calls.MS_BIND | system_calls.MS_REC)
+        system_calls.mount(_FRESH, path, flags=system_calls.MS_MOVE)

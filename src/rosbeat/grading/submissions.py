@@ -14,10 +14,10 @@ from itertools import groupby
 from pathlib import Path
 
 from rosbeat.errors import GradingError
+from rosbeat.grading.archives import EMPTY_FOLDER, OTHER_ARCHIVES, Allowance, File, open_upload
+from rosbeat.grading.archives import opened as opened_file
 from rosbeat.grading.files import printable
 from rosbeat.grading.notebook import CoursePage, Notebook, read_notebook, which_page
-from rosbeat.grading.uploads import EMPTY_FOLDER, OTHER_ARCHIVES, Allowance, File, open_upload
-from rosbeat.grading.uploads import opened as opened_file
 
 #: The file that marks a folder as a release; see `release`.
 MARKER = ".rosbeat-release.json"

@@ -22,7 +22,7 @@ from rosbeat.errors import RecordError
 from rosbeat.exercises.scenarios import Report, TypedIn
 from rosbeat.records import Observation, ProgramRun, Sample
 from rosbeat.records_json import from_json, to_json
-from rosbeat.viz.words import count, rounded, sentence_case
+from rosbeat.viz.text_format import count, rounded, sentence_case
 
 #: What a lane shows: what the node was sent, what it published, what it logged.
 HEARD, PUBLISHED, LOGGED = "heard", "published", "logged"

@@ -31,7 +31,7 @@ from functools import partial
 from pathlib import Path
 
 from rosbeat.errors import GradingError, RecordError
-from rosbeat.grading import linux
+from rosbeat.grading import system_calls
 from rosbeat.grading.jobs import FORGED, Evidence, Job, read_line, to_line
 from rosbeat.grading.sandbox import (
     Ending,
@@ -103,14 +103,14 @@ def main(options: Sequence[str]) -> None:
         with suppress(OSError):
             become_able()
     # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
-    linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+    system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
     prepare()
     view = view_of_answers()
     while True:
         select.select([0], [], [])
         keeper = os.fork()
         if keeper == 0:
-            linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+            system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
             os._exit(_keep(view, isolated))
         _, status = os.waitpid(keeper, 0)
         if status:

@@ -5,7 +5,8 @@ beside it, nothing from the network.
 
 - `panel` holds it together: the thread that looks 20 times a second, the flow of frames to the
   browser, and the picture that stands where no browser is;
-- `instruments` asks a session what happens, and does what is clicked; nothing else here knows ROS;
+- `session_adapter` asks a session what happens, and does what is clicked; nothing else here knows
+  ROS;
 - `sampling` turns a session into frames, and places the graph as the pictures of `rosbeat.viz` do.
 
 How it works, and why:

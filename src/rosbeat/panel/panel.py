@@ -1,4 +1,4 @@
-"""Show the instrument panel of one session: the widget, its thread, and a picture without both."""
+"""Show the instrument panel of a session: the widget and its thread, or a still picture."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from IPython import get_ipython
 from IPython.display import display
 from traitlets import Unicode
 
-from rosbeat.panel.instruments import carry_out
 from rosbeat.panel.sampling import Sampler
+from rosbeat.panel.session_adapter import carry_out
 from rosbeat.records import GraphSnapshot
 
 if TYPE_CHECKING:
-    from rosbeat.panel.instruments import SessionInstruments
+    from rosbeat.panel.session_adapter import SessionInstruments
 
 #: Seconds from one look at the session to the next: 20 frames a second.
 POLL_PERIOD = 0.05

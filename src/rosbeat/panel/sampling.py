@@ -1,4 +1,4 @@
-"""Sample a session for the panel: what the browser is told, and how little of it."""
+"""Sample a session for the panel, and send the browser as little as possible."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosbeat.records import NANOSECONDS, Fault, LogRecord, Sample
 from rosbeat.viz import theme
+from rosbeat.viz.arguments import paths
 from rosbeat.viz.graphs import (
     Arrangement,
     Marked,
@@ -21,11 +22,10 @@ from rosbeat.viz.graphs import (
     topic_key,
     wiring,
 )
-from rosbeat.viz.sources import paths
-from rosbeat.viz.words import rounded
+from rosbeat.viz.text_format import rounded
 
 if TYPE_CHECKING:
-    from rosbeat.panel.instruments import SessionInstruments
+    from rosbeat.panel.session_adapter import SessionInstruments
 
 #: Seconds of the strip chart, and points that it has room for: one for each look.
 SPAN, POINTS = 30.0, 640

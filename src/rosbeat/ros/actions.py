@@ -23,7 +23,7 @@ from unique_identifier_msgs.msg import UUID
 
 from rosbeat.errors import SessionError
 from rosbeat.records import Endpoint
-from rosbeat.ros.faults import asking
+from rosbeat.ros.exception_origin import asking
 from rosbeat.ros.graph import qos_of
 from rosbeat.ros.processes import NodeState, callback_name
 from rosbeat.ros.recording import Entity, Message, type_name, watcher_of

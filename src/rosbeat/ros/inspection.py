@@ -16,7 +16,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-from rosbeat.diagnosis.situation import (
+from rosbeat.diagnosis.topic_snapshot import (
     BLOCKED,
     ENDED,
     NOT_ADDED,

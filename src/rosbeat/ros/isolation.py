@@ -27,7 +27,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
-from rosbeat.ros.faults import is_learners
+from rosbeat.ros.exception_origin import is_learners
 
 # Kept here: a learner's code may put something else in its place.
 _now = time.monotonic

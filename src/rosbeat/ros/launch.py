@@ -21,7 +21,7 @@ from rclpy.parameter import Parameter
 
 from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
-from rosbeat.ros.faults import fault_of
+from rosbeat.ros.exception_origin import fault_of
 from rosbeat.ros.recording import repair_message_classes
 
 if TYPE_CHECKING:

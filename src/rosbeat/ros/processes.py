@@ -19,7 +19,7 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 from rclpy.task import Future
 
-from rosbeat.ros.faults import asking
+from rosbeat.ros.exception_origin import asking
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import CallbackLabel, Message, PublisherTap

@@ -47,7 +47,7 @@ from rclpy.validate_node_name import validate_node_name
 
 from rosbeat.errors import NoSessionError, SessionError
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
-from rosbeat.ros.faults import asking, is_message_class
+from rosbeat.ros.exception_origin import asking, is_message_class
 from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
 if TYPE_CHECKING:

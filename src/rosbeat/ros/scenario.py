@@ -40,7 +40,7 @@ from rosbeat.records import (
     Reply,
 )
 from rosbeat.ros.errors import duration_ns
-from rosbeat.ros.faults import fault_of, line_of
+from rosbeat.ros.exception_origin import fault_of, line_of
 from rosbeat.ros.isolation import Deadline, DeadlinePassed, run_in_generator, unharmed
 from rosbeat.ros.launch import Launch as Launch
 from rosbeat.ros.launch import Maker as Maker

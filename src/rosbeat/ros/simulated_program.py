@@ -33,7 +33,7 @@ from rclpy.node import Node
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
 from rosbeat.ros.errors import note
-from rosbeat.ros.faults import error_text, fault_of
+from rosbeat.ros.exception_origin import error_text, fault_of
 from rosbeat.ros.processes import Call, Process
 
 if TYPE_CHECKING:

@@ -42,7 +42,7 @@ from rosbeat.ros.errors import (
     note,
     work_text,
 )
-from rosbeat.ros.faults import fault_of, is_learners, line_of
+from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.isolation import SeededRandom
 from rosbeat.ros.launch import Launch, Maker, build_in, show_sim_time

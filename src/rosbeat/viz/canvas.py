@@ -28,7 +28,7 @@ from matplotlib.textpath import TextPath
 from matplotlib.ticker import MaxNLocator
 
 from rosbeat.viz import theme
-from rosbeat.viz.words import number
+from rosbeat.viz.text_format import number
 
 Point = tuple[float, float]
 

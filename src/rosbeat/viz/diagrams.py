@@ -1,4 +1,4 @@
-"""Draw where a page is going, and what one would rather look at than read: boxes and arrows.
+"""Draw the map of the course on each page, and other diagrams of boxes and arrows.
 
 A diagram is rows of data: boxes on a grid, arrows between them, frames around some of them, and the
 names of those that are highlighted. `_MAP` is the whole of the course; each page highlights its own
@@ -25,7 +25,7 @@ from rosbeat.viz.canvas import (
     text_width,
 )
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.words import listing, nearest
+from rosbeat.viz.text_format import listing, nearest
 
 # What a diagram is.
 

@@ -20,7 +20,7 @@ from rosbeat.records import (
     GraphSnapshot,
     is_hidden,
 )
-from rosbeat.viz import sources, theme
+from rosbeat.viz import arguments, theme
 from rosbeat.viz.canvas import (
     BROKEN,
     PLAIN,
@@ -42,7 +42,7 @@ from rosbeat.viz.layout import (
     place,
 )
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.words import count, listing, sentence_case
+from rosbeat.viz.text_format import count, listing, sentence_case
 
 #: Widest line of a name in CSS pixels, tried in this order.
 _LIMITS = (200.0, 150.0, 115.0, 95.0)
@@ -391,7 +391,7 @@ def _noted(made: Marked, mark: Mark, source: str, target: str) -> Marked:
 
 @called_as("viz.graph(ros)")
 def graph(
-    source: sources.Observed | GraphSnapshot | Explanation,
+    source: arguments.Observed | GraphSnapshot | Explanation,
     highlight: str | Iterable[str] = (),
     infrastructure: bool = False,
 ) -> Picture:
@@ -418,7 +418,7 @@ def graph(
     if isinstance(source, Explanation):
         shown, words = marked(source, infrastructure), f"{say(source)} "
     else:
-        plain = wiring(sources.snapshot(source), infrastructure)
+        plain = wiring(arguments.snapshot(source), infrastructure)
         shown, words = Marked(plain, plain), ""
     if not shown.plain.nodes:
         raise PictureError(
@@ -429,7 +429,7 @@ def graph(
     offered = (offer.name for offer in shown.wiring.offers)
     known = (*shown.wiring.nodes, *shown.wiring.topics, *offered)
     strong = {
-        sources.known_name(name, known, "node or topic") for name in sources.names_in(highlight)
+        arguments.known_name(name, known, "node or topic") for name in arguments.names_in(highlight)
     }
     if isinstance(source, Explanation):
         strong |= {source.topic} & set(shown.wiring.topics)

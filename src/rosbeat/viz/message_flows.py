@@ -15,7 +15,7 @@ from rosbeat.records import NANOSECONDS, LogRecord
 from rosbeat.viz import theme
 from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, line_height, text_width
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.words import count, listing, not_shown
+from rosbeat.viz.text_format import count, listing, not_shown
 
 #: More messages than this cannot be told apart in one picture.
 MOST = 60

@@ -13,11 +13,11 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from rosbeat.comparisons import Comparison
 from rosbeat.errors import PictureError, called_as
 from rosbeat.records import Sample
-from rosbeat.viz import sources, theme
+from rosbeat.viz import arguments, theme
 from rosbeat.viz.canvas import Canvas, Entry, blank, line_height, text_width
 from rosbeat.viz.layout import apart
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.words import count, listing, number, rounded, sentence_case
+from rosbeat.viz.text_format import count, listing, number, rounded, sentence_case
 
 _PLOT, _HEAD, _FOOT = 250.0, 4.0, 36.0
 #: Up to so many messages of a line each has its own mark. A line of more has none, unless there are
@@ -67,7 +67,7 @@ class Series:
 
 def _series(samples: Iterable[Sample], field: str | None, *names: str) -> Series:
     ordered = sorted(samples, key=lambda one: one.time_ns)
-    numbers = tuple(sources.number_in(one, field) for one in ordered)
+    numbers = tuple(arguments.number_in(one, field) for one in ordered)
     return Series(tuple(one.time for one in ordered), numbers, *names)
 
 
@@ -141,7 +141,7 @@ def _band(name: str, pair: object) -> Band:
 
 @called_as('viz.values(ros, "temperature")')
 def values(
-    source: sources.Samples,
+    source: arguments.Samples,
     topic: str | Iterable[str] | None = None,
     bands: Limits | None = None,
     label: str | None = None,
@@ -165,7 +165,7 @@ def values(
         PictureError: If the topic is unknown, nothing was published on it, the field is missing or
             not a number, or a band is not a pair of ascending limits.
     """
-    lines, ranges = _lines(_chosen(sources.samples(source), topic), field), read_bands(bands)
+    lines, ranges = _lines(_chosen(arguments.samples(source), topic), field), read_bands(bands)
     if not any(line.finite for line in lines):
         raise PictureError(
             f"There is no value to draw on {lines[0].topic}.",
@@ -202,7 +202,7 @@ def _chosen(samples: Sequence[Sample], topic: str | Iterable[str] | None) -> lis
             "Different topics often have different units and do not share an axis.",
             f"Choose one: {', '.join(known)}.",
         )
-    wanted = sources.topic_names(topic, known) or known
+    wanted = arguments.topic_names(topic, known) or known
     return [one for one in samples if one.topic in wanted]
 
 

@@ -13,10 +13,10 @@ from matplotlib.patches import Rectangle
 from rosbeat.errors import PictureError, called_as
 from rosbeat.records import Endpoint, Observation, QueueStep, queue_steps
 from rosbeat.viz import theme
+from rosbeat.viz.arguments import Observed, known_name, observed, topic_names
 from rosbeat.viz.canvas import ROOM, Canvas, Entry, blank, text_width
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.sources import Observed, known_name, observed, topic_names
-from rosbeat.viz.words import count, listing, not_shown, ranges, seconds
+from rosbeat.viz.text_format import count, listing, not_shown, ranges, seconds
 
 #: More moments than this have no room side by side.
 MOST_MOMENTS = 220

@@ -1,4 +1,4 @@
-"""How pictures look: colours, sizes, marks. The only place that says so.
+"""Define how pictures look: colours, sizes and marks, for all of them.
 
 The strong colours are those of Okabe and Ito ("Color Universal Design", 2008,
 https://jfly.uni-koeln.de/color/), which people with any common kind of colour blindness can tell

@@ -27,11 +27,11 @@ from rosbeat.records import (
     WaitRecord,
     is_hidden,
 )
-from rosbeat.viz import sources, theme
+from rosbeat.viz import arguments, theme
 from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, smooth
 from rosbeat.viz.graphs import say_shared, shared
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.words import count, listing, not_shown, number, seconds
+from rosbeat.viz.text_format import count, listing, not_shown, number, seconds
 
 #: More messages and callbacks than this cannot be told apart in one picture.
 MOST_EVENTS = 60
@@ -320,7 +320,7 @@ def _first_free(taken: set[int]) -> int:
 
 @called_as("viz.timeline(ros)")
 def timeline(
-    source: sources.Observed,
+    source: arguments.Observed,
     topics: str | Iterable[str] | None = None,
     until: float | None = None,
 ) -> Picture:
@@ -343,9 +343,9 @@ def timeline(
         PictureError: If a topic is unknown, the time is not a number from 0 up, or nothing
             happened.
     """
-    seen = sources.observed(source)
+    seen = arguments.observed(source)
     names = [*seen.graph.topics(infrastructure=True), *(one.topic for one in seen.samples)]
-    wanted = sources.topic_names(topics, tuple(dict.fromkeys(names)))
+    wanted = arguments.topic_names(topics, tuple(dict.fromkeys(names)))
     shown = happenings(seen, wanted, _nanoseconds(until), everyone=topics is None)
     stack = _stack(shown)
     height = _HEAD + stack.height + _FOOT

@@ -17,10 +17,10 @@ Importing it inside IPython registers `%%terminal`, `%terminal` and `%%save`.
 - `commands`: which commands are not typed, and what the outcome of the others means, by the rules
   of `diagnosis.terminal`.
 - `saving`: a text becomes a file, and the version before is kept.
-- `catching_up`: makes what earlier pages leave, where it is missing.
+- `prerequisites`: makes what earlier pages leave, where it is missing.
 - `packages`: what the files of a package say.
-- `place`: where the workspace is, which page this is, and whether nbgrader runs it.
-- `waiting`: what is said while something takes long.
+- `location`: where the workspace is, which page this is, and whether nbgrader runs it.
+- `busy_notice`: what is said while something takes long.
 
 How it works, and why:
 
@@ -63,15 +63,15 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
-    from rosbeat.workspace.catching_up import catch_up as catch_up
-    from rosbeat.workspace.place import workspace as folder
+    from rosbeat.workspace.location import workspace as folder
+    from rosbeat.workspace.prerequisites import catch_up as catch_up
     from rosbeat.workspace.terminals import terminal as terminal
 
 __all__ = ["catch_up", "folder", "register", "terminal"]
 
 _HOMES = {
-    "catch_up": ("rosbeat.workspace.catching_up", "catch_up"),
-    "folder": ("rosbeat.workspace.place", "workspace"),
+    "catch_up": ("rosbeat.workspace.prerequisites", "catch_up"),
+    "folder": ("rosbeat.workspace.location", "workspace"),
     "terminal": ("rosbeat.workspace.terminals", "terminal"),
 }
 _MAGICS = ("rosbeat.workspace.magics", "rosbeat.workspace.saving_magic")

@@ -1,4 +1,4 @@
-"""What is known of a command: why it is not typed, and what its outcome means."""
+"""Say why a command is not typed, and what the outcome of another one means."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from rosbeat.diagnosis import terminal
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import TerminalError
-from rosbeat.workspace.place import steady_home
+from rosbeat.workspace.location import steady_home
 
 if TYPE_CHECKING:
     from rosbeat.diagnosis.packages import Package

@@ -1,4 +1,4 @@
-"""`%%terminal NAME` types a cell into a terminal; `%terminal NAME` looks at one."""
+"""Define `%%terminal NAME`, which types a cell into a terminal, and `%terminal NAME`, its view."""
 
 from __future__ import annotations
 

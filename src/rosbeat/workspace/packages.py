@@ -37,8 +37,8 @@ from rosbeat.diagnosis.packages import (
     flaw_of,
     parse,
 )
-from rosbeat.diagnosis.situation import StaleBuild
-from rosbeat.workspace.place import VARIABLE, workspace
+from rosbeat.diagnosis.topic_snapshot import StaleBuild
+from rosbeat.workspace.location import VARIABLE, workspace
 
 __all__ = ["Package", "find_packages", "parse_manifest", "read_package", "stale_builds"]
 

@@ -1,4 +1,4 @@
-"""Save text as a file of the workspace: whole or not at all, and never at the cost of another.
+"""Save text as a file of the workspace, atomically, and keep the version before.
 
 A version with other content is copied to `kept/` before it is replaced.
 """
@@ -17,7 +17,7 @@ from pathlib import Path, PurePosixPath
 from uuid import uuid4
 
 from rosbeat.errors import WorkspaceError
-from rosbeat.workspace.place import NAME, workspace
+from rosbeat.workspace.location import NAME, workspace
 
 #: The folder of a workspace that holds copies of replaced files.
 KEPT = "kept"

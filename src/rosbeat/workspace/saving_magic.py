@@ -18,8 +18,8 @@ from IPython.core.magic import no_var_expand
 
 from rosbeat.diagnosis.packages import nearest, parse
 from rosbeat.errors import WorkspaceError
-from rosbeat.workspace.catching_up import PACKAGE, catch_up
-from rosbeat.workspace.place import workspace
+from rosbeat.workspace.location import workspace
+from rosbeat.workspace.prerequisites import PACKAGE, catch_up
 from rosbeat.workspace.saving import locate, save
 
 if TYPE_CHECKING:

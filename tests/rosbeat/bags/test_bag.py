@@ -8,7 +8,7 @@ from textwrap import dedent
 import pytest
 from mcap.writer import Writer
 
-from made_records import run_of
+from record_builders import run_of
 from rosbeat.bags import Bag, record
 from rosbeat.errors import BagError
 from rosbeat.records import QoS

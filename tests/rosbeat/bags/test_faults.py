@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from made_records import run_of, sample
+from record_builders import run_of, sample
 from rosbeat.bags import drift, dropouts, inject, record, stuck, with_nan
 from rosbeat.errors import BagError
 

@@ -10,8 +10,8 @@ import pytest
 from rosbags.rosbag2 import Reader
 
 import rosbeat.bags
-from made_records import FLOAT, at, pub, run_of, sample
 from nodes import Talker
+from record_builders import FLOAT, at, pub, run_of, sample
 from rosbeat import Session
 from rosbeat.bags import Bag, record
 from rosbeat.errors import BagError

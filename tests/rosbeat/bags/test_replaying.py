@@ -8,8 +8,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float32, Int32
 
-from made_records import pub, run_of, sample
 from nodes import Listener, Talker
+from record_builders import pub, run_of, sample
 from rosbeat import Session
 from rosbeat.bags import Bag, dropouts, record, replay, stuck, with_nan
 from rosbeat.errors import BagError

@@ -4,14 +4,7 @@ from dataclasses import FrozenInstanceError, replace
 
 import pytest
 
-from made_records import STRING
-from parsed_html import Parsed
-from rosbeat.diagnosis import silence
-from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
-from rosbeat.diagnosis.silence import WELL, difference, explain, nearest, report, sides_of
-from rosbeat.diagnosis.situation import Beat, Condition, OtherDomain, StaleBuild, rate_of
-from rosbeat.records import QoS
-from scenes import (
+from diagnosis_scenes import (
     LATCHED,
     SENSOR_DATA,
     TOPIC,
@@ -27,6 +20,13 @@ from scenes import (
     timer,
     well,
 )
+from parsed_html import Parsed
+from record_builders import STRING
+from rosbeat.diagnosis import silence
+from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
+from rosbeat.diagnosis.silence import WELL, difference, explain, nearest, report, sides_of
+from rosbeat.diagnosis.topic_snapshot import Beat, Condition, OtherDomain, StaleBuild, rate_of
+from rosbeat.records import QoS
 
 # Names that are almost the same.
 

@@ -9,13 +9,13 @@ from bank.pages import solution
 from rosbeat import Session, check
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.cards import Shown
 from rosbeat.exercises.check import NotPassedError, for_nbgrader
 from rosbeat.exercises.exercise import (
     Exercise,
     before_judging,
     passed,
 )
+from rosbeat.exercises.outcome_display import Shown
 from rosbeat.exercises.progress import Standing, progress_file
 from rosbeat.records import Fault, Observation, Outcome, Part
 

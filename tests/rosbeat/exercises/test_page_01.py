@@ -4,7 +4,7 @@ import pytest
 
 from rosbeat.exercises.page_01 import EXERCISES, FolderMaking
 from rosbeat.exercises.scenarios import CommandMeaning, TypedIn, Workspace
-from rosbeat.workspace.catching_up import FOLDERS
+from rosbeat.workspace.prerequisites import FOLDERS
 
 folder_01a, way_01b = EXERCISES
 PLACE = "ROS2_and_RL_Tutorials"

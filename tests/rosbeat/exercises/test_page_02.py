@@ -7,8 +7,8 @@ from catkin_pkg.package import InvalidPackage, parse_package_string
 
 from rosbeat.exercises.page_02 import EXERCISES, PackageMaking
 from rosbeat.exercises.scenarios import Workspace
-from rosbeat.workspace.catching_up import finished
 from rosbeat.workspace.packages import read_package
+from rosbeat.workspace.prerequisites import finished
 
 manifest_02a, second_02b = EXERCISES
 XML = finished("package.xml")

@@ -26,7 +26,7 @@ from rosbeat.exercises.progress import (
     progress_file,
 )
 from rosbeat.exercises.registry import EXERCISES, PAGES
-from rosbeat.workspace import place
+from rosbeat.workspace import location
 
 
 def after(*outcomes):
@@ -413,8 +413,8 @@ def kept(course):
 def course(tmp_path, monkeypatch):
     """A course in which this process is the kernel of a page."""
     monkeypatch.delenv("ROSBEAT_PROGRESS_IN")
-    monkeypatch.setattr(place, "course_root", lambda: tmp_path)
-    monkeypatch.setattr(place, "learners_folder", lambda: str(tmp_path / "my_course"))
+    monkeypatch.setattr(location, "course_root", lambda: tmp_path)
+    monkeypatch.setattr(location, "learners_folder", lambda: str(tmp_path / "my_course"))
     monkeypatch.setattr(IPython, "get_ipython", lambda: SimpleNamespace(kernel=object()))
     return tmp_path
 

@@ -23,7 +23,7 @@ from rosbeat.grading.release import (
     release_files,
 )
 from rosbeat.grading.submissions import MARKER
-from rosbeat.workspace.catching_up import NEEDS
+from rosbeat.workspace.prerequisites import NEEDS
 from small_course import small_course, tree
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -26,7 +26,7 @@ from rosbeat.grading.run import Plan, Pool, Worker, cause_of, files_before, grad
 from rosbeat.grading.submissions import collect
 from rosbeat.grading.worker import environment
 from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
-from rosbeat.workspace.catching_up import Report
+from rosbeat.workspace.prerequisites import Report
 
 TESTS = Path(__file__).parents[2]
 

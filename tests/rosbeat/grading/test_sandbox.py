@@ -11,7 +11,7 @@ import pytest
 
 from rosbeat.grading.sandbox import Limits, cannot_be_made
 
-PROGRAM = Path(__file__).parents[2] / "sandbox_deeds.py"
+PROGRAM = Path(__file__).parents[2] / "sandbox_attacks.py"
 
 
 @pytest.fixture(scope="module")

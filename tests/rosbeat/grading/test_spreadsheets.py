@@ -9,9 +9,9 @@ from html.parser import HTMLParser
 import pytest
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
+from rosbeat.grading.csv_exports import canvas_csv, grades_csv, moodle_csv
 from rosbeat.grading.files import cell
 from rosbeat.grading.marks import Gradebook, Graded
-from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
 
 NASTY = [
     *HOSTILE,

@@ -13,7 +13,7 @@ import pytest
 
 from grading_files import BLANK, PAGE_03, PAGE_04, cell, notebook, zipped
 from rosbeat.errors import GradingError
-from rosbeat.grading import uploads
+from rosbeat.grading import archives
 from rosbeat.grading.deadlines import mark_late, read_due
 from rosbeat.grading.files import printable
 from rosbeat.grading.notebook import read_notebook, which_page
@@ -126,7 +126,7 @@ def test_no_link_leads_out_of_a_home(handed_in, pages, place):
 @pytest.mark.parametrize("place", ["03_write.ipynb", ""])
 def test_a_link_that_a_learner_puts_in_place_meanwhile_is_not_followed(handed_in, place):
     source = handed_in({**home("ana"), **home("eve", {"03_write.ipynb": BLANK})})
-    with uploads.open_upload(source) as files:
+    with archives.open_upload(source) as files:
         (page,) = [one for one in files if one.parts[:1] == ("eve",)]
         moved = source / "eve" / "my_course" / place
         moved.rename(source / "eve" / "own")
@@ -137,7 +137,7 @@ def test_a_link_that_a_learner_puts_in_place_meanwhile_is_not_followed(handed_in
 
 def test_a_pipe_that_a_learner_puts_in_place_keeps_nobody(handed_in):
     source = handed_in({**home("eve", {"03_write.ipynb": BLANK})})
-    with uploads.open_upload(source) as (page,):
+    with archives.open_upload(source) as (page,):
         (source / "eve" / "my_course" / "03_write.ipynb").unlink()
         os.mkfifo(source / "eve" / "my_course" / "03_write.ipynb")
         assert page.read() == b""
@@ -185,7 +185,7 @@ def test_nobody_hands_in_for_somebody_else(ana, eve, learners, handed_in, pages)
 
 
 def test_nothing_that_is_wrong_is_fatal_and_nothing_is_lost(handed_in, pages, monkeypatch):
-    monkeypatch.setattr(uploads, "MOST_BYTES", 100_000)
+    monkeypatch.setattr(archives, "MOST_BYTES", 100_000)
     files = {
         "ana/03_write.ipynb": PAGE_03,
         "ben/03_write.ipynb": "",
@@ -232,8 +232,8 @@ def test_nothing_that_is_wrong_is_fatal_and_nothing_is_lost(handed_in, pages, mo
 
 
 def test_what_is_read_for_one_learner_has_an_end_and_costs_no_other(handed_in, pages, monkeypatch):
-    monkeypatch.setattr(uploads, "MOST_OF_A_LEARNER", 2 * len(PAGE_03))
-    monkeypatch.setattr(uploads, "MOST_FILES", 6)
+    monkeypatch.setattr(archives, "MOST_OF_A_LEARNER", 2 * len(PAGE_03))
+    monkeypatch.setattr(archives, "MOST_FILES", 6)
     many = {f"{n}.txt": "x" for n in range(10)} | {"z/03_write.ipynb": PAGE_03}
     files = {**inside("ana/"), "ana/a/04_listen.ipynb": PAGE_04, **inside("ben/", many),
              "cy/03.ipynb": PAGE_03}  # fmt: skip

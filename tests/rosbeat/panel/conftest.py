@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from made_records import graph_of, pub, sample, sub
+from record_builders import graph_of, pub, sample, sub
 from rosbeat.panel.sampling import News
 from rosbeat.records import GraphSnapshot
 

@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 import pytest
 
-from made_records import FLOAT, STRING, graph_of, pub, sub
+from record_builders import FLOAT, STRING, graph_of, pub, sub
 from rosbeat.panel.panel import RARE_RETRY, RETRY, RETRY_FOR, WINDOW, FlowControl
 from rosbeat.panel.sampling import KEPT_LINES, LINES_PER_FRAME, POINTS, Sampler, layout
 from rosbeat.records import Fault, GraphSnapshot, LogRecord

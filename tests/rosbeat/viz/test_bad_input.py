@@ -5,7 +5,7 @@ from functools import partial
 
 import pytest
 
-from made_records import graph_of, pair, pub, sample
+from record_builders import graph_of, pair, pub, sample
 from rosbeat.comparisons import compare
 from rosbeat.errors import PictureError
 from rosbeat.records import GraphSnapshot, LogRecord, Observation

@@ -6,10 +6,10 @@ from itertools import combinations
 import pytest
 from matplotlib.patches import Ellipse, FancyBboxPatch, PathPatch, Polygon
 
-from made_records import FLOAT, STRING, graph_of, pub, sub
 from pictures import is_tidy, lines, patches, words_in
+from record_builders import FLOAT, STRING, graph_of, pub, sub
 from rosbeat.diagnosis.silence import explain
-from rosbeat.diagnosis.situation import Beat, Condition, Scene
+from rosbeat.diagnosis.topic_snapshot import Beat, Condition, Scene
 from rosbeat.records import Endpoint, Observation, QoS
 from rosbeat.viz import graph, theme
 

@@ -4,9 +4,9 @@ import random
 
 import pytest
 
-from made_records import at
 from pictures import heads, is_tidy, words_in
 from pictures import lines as drawn
+from record_builders import at
 from rosbeat.records import LogRecord
 from rosbeat.viz import message_flow, theme
 from rosbeat.viz.message_flows import MOST, first_number, pairs

@@ -2,8 +2,8 @@
 
 import pytest
 
-from made_records import at, call, graph_of, heard, pub, sample, sub
 from pictures import is_tidy, lines, words_in
+from record_builders import at, call, graph_of, heard, pub, sample, sub
 from rosbeat.errors import PictureError
 from rosbeat.records import Observation, QoS, queue_steps
 from rosbeat.viz import queue

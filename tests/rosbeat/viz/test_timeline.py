@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.patches import FancyBboxPatch, Rectangle
 
-from made_records import at, call, graph_of, heard, pair, sample, timer, wait
 from pictures import heads, is_tidy, lines, words_in
+from record_builders import at, call, graph_of, heard, pair, sample, timer, wait
 from rosbeat.errors import PictureError
 from rosbeat.records import Fault, LogRecord, Observation
 from rosbeat.viz import theme, timeline

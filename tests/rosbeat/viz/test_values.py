@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from made_records import sample
 from pictures import is_tidy, words_in
+from record_builders import sample
 from rosbeat.comparisons import compare
 from rosbeat.errors import PictureError
 from rosbeat.viz import comparison, theme, values

@@ -7,7 +7,7 @@ from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
 from rosbeat.workspace import saving_magic
-from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
+from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished
 from rosbeat.workspace.terminals import Terminals
 
 SETUP_CFG = (

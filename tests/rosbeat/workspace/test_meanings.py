@@ -7,8 +7,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rosbeat.workspace import catch_up
-from rosbeat.workspace.catching_up import NODES, PACKAGE, finished, run_command
 from rosbeat.workspace.commands import explain
+from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished, run_command
 
 RUN = f"ros2 run {PACKAGE} temperature_publisher"
 ENTRY = f"{PACKAGE}.temperature_publisher:main"

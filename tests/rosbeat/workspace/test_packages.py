@@ -6,9 +6,9 @@ import pytest
 
 from bank.reading import answers
 from rosbeat.diagnosis.packages import Manifest, SetupScript
-from rosbeat.diagnosis.situation import StaleBuild
-from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
+from rosbeat.diagnosis.topic_snapshot import StaleBuild
 from rosbeat.workspace.packages import find_packages, parse_manifest, read_package, stale_builds
+from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished
 
 NAME = f"{PACKAGE}.{NODES[0]}"
 PUBLISHER = f"{PACKAGE}/{NODES[0]}.py"

@@ -13,7 +13,7 @@ import pytest
 from rosbeat import Session
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace import saving
-from rosbeat.workspace.catching_up import PACKAGE, finished
+from rosbeat.workspace.prerequisites import PACKAGE, finished
 from rosbeat.workspace.saving import only_writer, save
 
 PUBLISHER = f"src/{PACKAGE}/{PACKAGE}/temperature_publisher.py"

@@ -8,7 +8,7 @@ import pytest
 
 import rosbeat
 from rosbeat import workspace
-from rosbeat.workspace.waiting import counting, step
+from rosbeat.workspace.busy_notice import counting, step
 
 IMPORTS = "import sys, rosbeat.workspace; print(*{'rclpy', 'IPython'} & set(sys.modules))"
 SEEN = """

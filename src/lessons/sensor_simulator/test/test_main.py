@@ -1,4 +1,4 @@
-"""Two processes talk, and both end in good order when they are asked to."""
+"""Check that two processes talk, and that both end cleanly on request."""
 
 import signal
 import subprocess

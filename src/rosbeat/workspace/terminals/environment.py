@@ -1,6 +1,6 @@
 """The environment variables of the course's programs and terminals, and how folders are shown.
 
-Where pages are built or tested, a steady home is set (`rosbeat.workspace.place`). Then programs
+Where pages are built or tested, a steady home is set (`rosbeat.workspace.location`). Then programs
 find no setting of a person's, and what is shown is the same on every machine.
 """
 
@@ -12,8 +12,8 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from rosbeat.workspace.place import VARIABLE as WORKSPACE
-from rosbeat.workspace.place import course_root, steady_home, workspace
+from rosbeat.workspace.location import VARIABLE as WORKSPACE
+from rosbeat.workspace.location import course_root, steady_home, workspace
 from rosbeat.workspace.terminals.reaper import VARIABLE
 
 Polish = Callable[[str], str]

@@ -1,4 +1,4 @@
-"""Turn what a terminal is sent into lines, remember them, and show them on a page.
+"""Turn the output of a terminal into lines, store them, and show them on a page.
 
 A library such as pyte emulates a screen of a fixed width, cell by cell, at 0.2 MB/s. A page needs
 lines of any length and none of the screen: of a line that is repainted, the last state.

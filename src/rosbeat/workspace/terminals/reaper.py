@@ -1,4 +1,4 @@
-"""Ends every process that a kernel's terminals have started, however the kernel ended.
+"""End every process that a kernel's terminals have started, however the kernel ended.
 
 The kernel starts this file as a program of its own. It waits until the kernel is gone, which it
 notices by a pipe that closes and by the process itself, and then looks for the kernel's mark in the

@@ -1,4 +1,4 @@
-"""The terminals of a page: commands are typed, and what becomes of them is followed and shown."""
+"""Type commands into the terminals of a page, and follow and show what they do."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ from typing import Any
 from rosbeat.errors import TerminalError, called_as
 from rosbeat.records import LogRecord
 from rosbeat.workspace import commands
-from rosbeat.workspace.place import page_number, workspace, workspace_parent
+from rosbeat.workspace.busy_notice import LONG, Note
+from rosbeat.workspace.location import page_number, workspace, workspace_parent
 from rosbeat.workspace.terminals import reaper
 from rosbeat.workspace.terminals.environment import polisher, prompt
 from rosbeat.workspace.terminals.output import (
@@ -31,7 +32,6 @@ from rosbeat.workspace.terminals.output import (
     say,
 )
 from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
-from rosbeat.workspace.waiting import LONG, Note
 
 # How watching a command ends: it has ended; the text has come; it has come as a question, in a line
 # without an end; the time that was asked for is over; patience is; the program waits for an answer.
@@ -630,7 +630,7 @@ def _catch_up() -> None:
     # Where answers are observed, no page is open, and what makes a workspace is not there.
     page = page_number()
     if page:
-        import_module("rosbeat.workspace.catching_up").catch_up_on(page)
+        import_module("rosbeat.workspace.prerequisites").catch_up_on(page)
 
 
 @called_as('workspace.terminal("sensor")')

@@ -1,4 +1,4 @@
-"""Let widgets of exercises act in the kernel: between cells, in the main thread.
+"""Run the actions of exercise widgets in the kernel, between cells, in the main thread.
 
 A click comes in the main thread or, from ipykernel 7 on, in a thread of its own (a subshell). A
 check needs the main thread, where Python runs signal handlers, and it is not to run in the middle
@@ -22,8 +22,8 @@ from IPython.display import display
 from traitlets import Bool, Int, List, Unicode
 
 from rosbeat.errors import RosbeatError
-from rosbeat.exercises.cards import OPEN, framed, words
 from rosbeat.exercises.cells import cells_of
+from rosbeat.exercises.outcome_display import OPEN, framed, words
 
 _HERE = Path(__file__).parent
 #: What a click leads to: it gets what the browser sent, and returns HTML to show below the buttons.

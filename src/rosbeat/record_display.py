@@ -1,4 +1,4 @@
-"""Show records and parts of rclpy at the end of a cell: what one likes to read, on a line or two.
+"""Show records and rclpy objects at the end of a cell in a readable form, on a line or two.
 
 `repr` stays as it is. IPython asks its formatter for a type by name, so nothing of ROS is loaded.
 Shown are attributes by their names, times in seconds, and nothing that every object has.

@@ -1,4 +1,4 @@
-"""Read what a caller gives to a picture, with an error that helps when it cannot be read."""
+"""Read the arguments of pictures, with a helpful error for those that cannot be read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from rosbeat.comparisons import Observer
 from rosbeat.errors import PictureError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, Observation, Sample
-from rosbeat.viz.words import listing, nearest
+from rosbeat.viz.text_format import listing, nearest
 
 #: Whatever `timeline` can draw from: a session, or what it observed.
 Observed = Observation | Observer

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from made_records import FLOAT
-from made_records import at as seconds
-from rosbeat.diagnosis.situation import Beat, Condition, Scene
+from record_builders import FLOAT
+from record_builders import at as seconds
+from rosbeat.diagnosis.topic_snapshot import Beat, Condition, Scene
 from rosbeat.records import Endpoint, Fault, GraphSnapshot, QoS, TimerRecord
 
 SENSOR, MONITOR, TOPIC = "/sensor", "/monitor", "/temperature"

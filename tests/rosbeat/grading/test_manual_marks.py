@@ -6,7 +6,7 @@ import pytest
 
 from graded_classes import HOSTILE, hostile_learner, mark
 from rosbeat.errors import GradingError
-from rosbeat.grading.manual import (
+from rosbeat.grading.manual_marks import (
     apply_manual,
     read_manual,
     write_template,

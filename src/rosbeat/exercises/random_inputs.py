@@ -1,4 +1,4 @@
-"""Draw what a scenario feeds an answer: on a page always the same, in grading from a secret seed.
+"""Choose what a scenario feeds an answer: fixed on a page, from a secret seed in grading.
 
 An answer and what observes it share a process, so evidence can be forged. A class is therefore
 graded with a seed that is drawn for it alone: evidence that was made in advance does not fit, and

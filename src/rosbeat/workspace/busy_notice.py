@@ -1,4 +1,4 @@
-"""Say what takes long, in a notebook that is open in a browser.
+"""Say what a cell is waiting for, in a notebook that is open in a browser.
 
 What is said stands in the cell's output only while it is true, and is gone afterwards. Where pages
 are built, tested or graded, and in every other program, nothing is said.
@@ -19,7 +19,7 @@ from uuid import uuid4
 
 from IPython.display import display, update_display
 
-from rosbeat.workspace.place import STEADY
+from rosbeat.workspace.location import STEADY
 
 #: Seconds after which something takes long.
 LONG = 2.0

@@ -1,4 +1,4 @@
-"""Write words for descriptions and labels: counts, lists, times, numbers. Pure functions."""
+"""Format counts, lists, times and numbers for descriptions and labels. Pure functions."""
 
 from __future__ import annotations
 

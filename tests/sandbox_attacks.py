@@ -22,8 +22,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.linux import REFUSED, number_of
 from rosbeat.grading.sandbox import Limits, Sandbox, View, become_able, python_folders
+from rosbeat.grading.system_calls import REFUSED, number_of
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
 SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (0.7, 15.0))

@@ -7,7 +7,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float32
 
-from rosbeat import Session, page_views
+from rosbeat import Session, record_display
 
 
 class Sensor(Node):
@@ -30,7 +30,7 @@ class Sensor(Node):
 def shown():
     """Shows a value as a cell does."""
     shell = InteractiveShell()
-    page_views.register(shell)
+    record_display.register(shell)
     return lambda value: shell.display_formatter.format(value)[0]["text/plain"]
 
 

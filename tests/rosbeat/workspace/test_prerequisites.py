@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 from rosbeat.errors import WorkspaceError
-from rosbeat.workspace import catch_up, catching_up
-from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
+from rosbeat.workspace import catch_up, prerequisites
 from rosbeat.workspace.packages import read_package
+from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished
 from rosbeat.workspace.terminals import terminals_of
 
 # What `ros2 pkg create` writes, as far as it matters here.
@@ -117,7 +117,9 @@ def test_what_is_half_made_is_said_and_not_touched(furnished, package, spoil, sa
 def test_a_command_that_fails_says_why_and_leaves_nothing(root, package, monkeypatch, page):
     if page == "03":
         shutil.rmtree(package)
-    monkeypatch.setattr(catching_up, "run_command", lambda *_: (1, "one\nsome error: why\nlast\n"))
+    monkeypatch.setattr(
+        prerequisites, "run_command", lambda *_: (1, "one\nsome error: why\nlast\n")
+    )
     assert "some error: why" in str(catch_up(page))
     assert package.exists() == (page != "03")
 
@@ -175,7 +177,7 @@ def test_a_program_that_is_not_installed_or_does_not_end(root, says, monkeypatch
     (tmp_path / "bin").mkdir()
     (tmp_path / "bin" / "ros2").write_text("#!/bin/sh\nexec sleep 100\n")
     (tmp_path / "bin" / "ros2").chmod(0o755)
-    monkeypatch.setattr(catching_up, "_MAKING", 0.1)
+    monkeypatch.setattr(prerequisites, "_MAKING", 0.1)
     with pytest.raises(WorkspaceError) as caught:
         catch_up("03")
     says(caught.value, "did not finish within 0.1 seconds")

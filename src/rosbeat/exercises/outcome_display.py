@@ -1,4 +1,4 @@
-"""Show in a cell what a learner is told: the frame around it, and the outcome of a check."""
+"""Show messages and outcomes of checks in a cell."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Make what earlier pages leave in the workspace, as far as it is missing: pages run in any order.
+"""Create what earlier pages leave in the workspace and is missing, so that pages run in any order.
 
 A stage makes what one page leaves, and returns what it made or an empty text. It never changes what
 a learner has made; if that is in the way it raises `InTheWay`, which says what to do.
@@ -17,13 +17,13 @@ from importlib.resources import files
 from pathlib import Path
 
 from rosbeat.errors import WorkspaceError, called_as
+from rosbeat.workspace.location import workspace
 from rosbeat.workspace.packages import (
     find_packages,
     parse_manifest,
     read_package,
     with_entry_points,
 )
-from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import save, trouble
 from rosbeat.workspace.terminals.environment import program_environment
 

@@ -1,4 +1,4 @@
-"""Read what the functions of this folder are given: runs, names of topics, and places of bags."""
+"""Read the arguments of this folder's functions: runs, topic names and paths of bags."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the learner's workspace is.
+"""Locate the learner's workspace.
 
 It is a folder `ROS2_and_RL_Tutorials` in the learner's own folder `my_course`, beside the pages, so
 that JupyterLab's file browser shows it. Where `./environment/course lab` has not made that folder

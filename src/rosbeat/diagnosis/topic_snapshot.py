@@ -1,4 +1,4 @@
-"""Hold what is known when somebody asks why nothing arrives on a topic: plain data.
+"""Hold what is known about a topic on which nothing arrives: plain data.
 
 A session or a terminal fills a `Scene` with what it can see; `silence.explain` reads nothing
 else. What a field cannot know keeps its default, and nothing is concluded from it.

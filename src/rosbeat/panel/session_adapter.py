@@ -1,4 +1,7 @@
-"""Show the panel a session, and carry out what is clicked there; nothing else here knows ROS."""
+"""Connect the panel to a session: read its state, and carry out clicks.
+
+Nothing else in this folder knows ROS.
+"""
 
 from __future__ import annotations
 

@@ -8,9 +8,9 @@ import pytest
 
 from parsed_html import Parsed
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.exercises import cards
-from rosbeat.exercises.cards import EDGES, MIME, Shown, highlighted, words
+from rosbeat.exercises import outcome_display
 from rosbeat.exercises.exercise import failed, not_attempted
+from rosbeat.exercises.outcome_display import EDGES, MIME, Shown, highlighted, words
 from rosbeat.records import Outcome, Part
 
 OUTCOMES = {
@@ -114,7 +114,8 @@ PLAIN = {
     "what no parser takes": "\0" + "(" * 500,
 }
 COLOURS = {
-    name: getattr(cards, name) for name in ("KEYWORD", "STRING", "NUMBER", "NAME", "COMMENT")
+    name: getattr(outcome_display, name)
+    for name in ("KEYWORD", "STRING", "NUMBER", "NAME", "COMMENT")
 }
 
 

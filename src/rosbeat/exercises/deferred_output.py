@@ -1,4 +1,4 @@
-"""Keep back what a cell shows until its prediction is made.
+"""Hold back a cell's output until its prediction is made.
 
 The cell runs to its end, so the cells below it have what they need. What it prints with Python and
 what it displays is kept, in order, and goes to the cell's output when the prediction is made. A

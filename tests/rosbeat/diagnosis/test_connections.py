@@ -6,7 +6,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float32, Float64
 
 from failed_calls import failed_call
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished, why_raised
+from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished, why_raised
 from rosbeat.records import (
     CallbackRecord,
     Endpoint,

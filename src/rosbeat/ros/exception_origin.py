@@ -1,4 +1,4 @@
-"""Find in an exception the learner's own line, the call that failed, and a suggestion."""
+"""Find the learner's own line in an exception, the call that failed, and a suggestion."""
 
 from __future__ import annotations
 
