@@ -1,4 +1,4 @@
-"""Check that two processes talk, and that both end cleanly on request."""
+"""Two processes talk, and both end in good order when they are asked to."""
 
 import signal
 import subprocess
