@@ -88,16 +88,16 @@ def _run(argv: list[str]) -> int:
     refusal = what_is_left_out(command, verb) if command else None
     if refusal:
         raise CommandError(refusal)
-    args = build(argv).parse_args(argv, Namespace(_words=argv))
+    args = build(argv).parse_args(argv, Namespace(typed_words=argv))
     if not args.use_python_default_buffering and isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)
-    name, verb = args._command, getattr(args, "_verb", None)
+    name, verb = args.chosen_command, getattr(args, "chosen_verb", None)
     chosen = verbs_of(name).get(verb or "") if name else None
     if chosen is None:
-        args._parser.print_help()
+        args.chosen_parser.print_help()
         return 0
     try:
         return int(chosen.main(args) or 0)
     except UsageError as error:
-        args._parser.print_usage(sys.stderr)
-        raise CommandError(f"{args._parser.prog}: error: {error}", code=2) from None
+        args.chosen_parser.print_usage(sys.stderr)
+        raise CommandError(f"{args.chosen_parser.prog}: error: {error}", code=2) from None

@@ -52,7 +52,7 @@ def create(args: Namespace) -> None:
         raise CommandError(
             f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages, "
             "since ROS 2 from pip has no C++ libraries to build others with.",
-            f"Try:  {_as_python_package(args._words)}",
+            f"Try:  {_as_python_package(args.typed_words)}",
         )
     _check_names(args)
     _complete(args)

@@ -204,10 +204,10 @@ def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
             name, action="store_true", help=f"Consider hidden {command}s as well"
         )  # the original has the option in both places
     abouts = {name: one.about for name, one in verbs.items()}
-    parsers = _sub(parser, f"ros2 {command} <command>", abouts, "_verb")
-    parser.set_defaults(_parser=parser)
+    parsers = _sub(parser, f"ros2 {command} <command>", abouts, "chosen_verb")
+    parser.set_defaults(chosen_parser=parser)
     if verb in parsers:
-        parsers[verb].set_defaults(_parser=parsers[verb])
+        parsers[verb].set_defaults(chosen_parser=parsers[verb])
         verbs[verb].add_arguments(parsers[verb])
 
 
@@ -226,9 +226,9 @@ def build(argv: Sequence[str]) -> Parser:
         action="store_true",
         help="Do not force line buffering in stdout",
     )
-    commands = _sub(parser, "ros2 <command>", COMMANDS, "_command")
-    parser.set_defaults(_parser=parser)
+    commands = _sub(parser, "ros2 <command>", COMMANDS, "chosen_command")
+    parser.set_defaults(chosen_parser=parser)
     if command in commands:
-        commands[command].set_defaults(_parser=commands[command])
+        commands[command].set_defaults(chosen_parser=commands[command])
         _fill_command(commands[command], command, verb)
     return parser

@@ -39,7 +39,7 @@ class SessionClock(ROSClock):
     `/clock` messages; both calls are accepted and change nothing.
     """
 
-    _keeper: VirtualTimeExecutor
+    keeper: VirtualTimeExecutor
     _shown: int
 
     def set_ros_time_override(self, time: Time) -> None:
@@ -60,7 +60,7 @@ class SessionClock(ROSClock):
 
     def move(self) -> None:
         """Move to the session's time."""
-        time_ns = self._keeper.now
+        time_ns = self.keeper.now
         if time_ns != self._shown:
             self._shown = time_ns
             # Without the detour through `Time` and the method of rclpy's clock.
@@ -70,15 +70,15 @@ class SessionClock(ROSClock):
 
     def now(self) -> Time:
         """Return the time; see rclpy."""
-        if not self._keeper.is_live:
+        if not self.keeper.is_live:
             self.move()
         return super().now()
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Sleep until a time of this clock; see rclpy. `sleep_for` calls this, too."""
-        if self._keeper.is_live:
+        if self.keeper.is_live:
             return bool(super().sleep_until(until, context))
-        self._keeper.sleep_until(until.nanoseconds)
+        self.keeper.sleep_until(until.nanoseconds)
         return True
 
 
@@ -88,7 +88,7 @@ def make_clock(keeper: VirtualTimeExecutor) -> SessionClock:
     clock = ROSClock()
     clock.__class__ = SessionClock
     made: SessionClock = clock
-    made._keeper = keeper
+    made.keeper = keeper
     made.follow_session()
     if keeper.is_live:
         made.follow_wall()

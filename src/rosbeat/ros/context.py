@@ -86,7 +86,7 @@ class SessionContext(Context):
         super().__init__()
         self.watcher: Watcher | None = watcher
         # Always an older one, so that these references never form a circle.
-        self._previous: Context | None = rclpy.utilities.g_default_context
+        self.previous: Context | None = rclpy.utilities.g_default_context
         self._is_private = domain_id is None
         if domain_id is None:
             number = os.getpid() + next(_private_contexts)
@@ -119,9 +119,9 @@ class SessionContext(Context):
     def end(self) -> None:
         """Shut the context down for real and hand the default back."""
         self.watcher = None
-        self._previous = _open_context(self._previous)
+        self.previous = _open_context(self.previous)
         if rclpy.utilities.g_default_context is self:
-            self.uninstall(self._previous)
+            self.uninstall(self.previous)
         super().try_shutdown()
 
     def _call_on_shutdown_callbacks(self) -> None:
@@ -187,7 +187,7 @@ class ProgramContext(Context):
 
 def _open_context(context: Context | None) -> Context | None:
     while isinstance(context, SessionContext) and context.watcher is None:
-        context = context._previous
+        context = context.previous
     return context
 
 
