@@ -13,7 +13,7 @@ from rosbeat.grading.answers import Answer as HandedIn
 from rosbeat.grading.answers import answers_on
 from rosbeat.grading.judging import judge, untouched
 from rosbeat.grading.notebook import CoursePage, course_pages
-from rosbeat.grading.run import Pool
+from rosbeat.grading.pool import Pool
 from rosbeat.records import Outcome
 
 #: Answers that one learner hands in: as many as a page or two have.

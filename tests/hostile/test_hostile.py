@@ -15,8 +15,9 @@ from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large
 from hostile.pages import ROOT
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.notebook import course_pages
+from rosbeat.grading.pool import Pool
 from rosbeat.grading.results import write_results
-from rosbeat.grading.run import Plan, Pool, grade
+from rosbeat.grading.run import Plan, grade
 from rosbeat.grading.submissions import REACHES_INSIDE, collect
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(600), pytest.mark.xdist_group("hostile")]
@@ -34,7 +35,7 @@ def surroundings(tmp_path_factory):
         patch.setenv("ROSBEAT_TEST_SECRET", CANARY)
         patch.setenv("HOME", str(home))
         patch.setenv("PYTHONPATH", str(Path(__file__).parents[1]), prepend=os.pathsep)
-        patch.setattr("rosbeat.grading.run._MODULE", "hostile.brief_worker")
+        patch.setattr("rosbeat.grading.pool._MODULE", "hostile.brief_worker")
         yield home
 
 

@@ -97,7 +97,8 @@ _OF_THE_TABLE = (
     Mistake("first-messages-lost", "messages published before the subscription was connected", 30),
 )
 
-_OTHERS = (
+# Errors of Python and of ROS in general, and mistakes of pages 00 to 06.
+_PAGES_00_TO_06 = (
     Mistake("name-error", "a name that is not defined"),
     Mistake("wrong-attribute", "an attribute or a method that does not exist"),
     Mistake("argument-missing", "a missing argument"),
@@ -227,7 +228,7 @@ _OTHERS = (
     Mistake("other-package", "a different package than requested"),
 )
 
-_OF_PAGES = (
+_PAGES_07_TO_13 = (
     # Those of page 07.
     # Findings about a system.
     Mistake("finding-missing", "a question without an answer"),
@@ -379,7 +380,9 @@ _OF_PAGES = (
     Mistake("evidence-unreadable", "a run whose evidence cannot be read"),
 )
 
-MISTAKES: dict[str, Mistake] = {one.id: one for one in (*_OF_THE_TABLE, *_OTHERS, *_OF_PAGES)}
+MISTAKES: dict[str, Mistake] = {
+    one.id: one for one in (*_OF_THE_TABLE, *_PAGES_00_TO_06, *_PAGES_07_TO_13)
+}
 
 
 def in_html(text: str, code: Callable[[str], str] = escape) -> str:

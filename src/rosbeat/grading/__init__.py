@@ -5,8 +5,8 @@ points of `rosbeat release`, `collect` and `grade`.
 
 - Input: `submissions` and `archives` (folders, zips), `notebook` (pages, submitted and the
   course's), `roster`, `deadlines`, `files` (CSV, safe names, whole writes).
-- Running: `answers` and `jobs` (which code is run), `run` (a whole run), `worker`, `sandbox`,
-  `system_calls`, `observing`, `cluster`.
+- Running: `answers` and `jobs` (which code is run), `run` (a whole run), `pool` (of workers),
+  `worker`, `sandbox`, `system_calls`, `observing`, `cluster`.
 - Judging: `judging`, `ledger` (judged answers, so that a run can resume).
 - Marks: `marks` (with what exercises are worth), `manual_marks` (points given by hand), `results`,
   `csv_exports` (Moodle, Canvas), `groups`.

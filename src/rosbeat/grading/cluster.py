@@ -20,7 +20,7 @@ from rosbeat.errors import GradingError
 from rosbeat.grading.files import printable
 from rosbeat.grading.jobs import LOST, Evidence, Job, read_line, to_line
 from rosbeat.grading.ledger import course_version
-from rosbeat.grading.run import Pool
+from rosbeat.grading.pool import Pool
 
 try:
     import distributed

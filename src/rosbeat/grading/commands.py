@@ -39,11 +39,12 @@ from rosbeat.grading.manual_marks import FILE as MANUAL
 from rosbeat.grading.manual_marks import apply_manual, read_manual
 from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
 from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
+from rosbeat.grading.pool import Pool
 from rosbeat.grading.release import Released, catches_up, release
 from rosbeat.grading.results import summary, write_results
 from rosbeat.grading.review import review
 from rosbeat.grading.roster import read_roster, with_roster
-from rosbeat.grading.run import Observe, Plan, Pool, Tell, grade
+from rosbeat.grading.run import Observe, Plan, Tell, grade
 from rosbeat.grading.submissions import (
     Collection,
     HandedIn,

@@ -20,8 +20,9 @@ from rosbeat.grading.cluster import Cluster
 from rosbeat.grading.jobs import LOST, Job
 from rosbeat.grading.ledger import FILE, Ledger
 from rosbeat.grading.marks import Points
+from rosbeat.grading.pool import Pool
 from rosbeat.grading.results import to_results
-from rosbeat.grading.run import Plan, Pool, grade
+from rosbeat.grading.run import Plan, grade
 
 dask = pytest.importorskip("distributed")
 

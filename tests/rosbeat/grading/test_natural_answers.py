@@ -15,7 +15,8 @@ from bank.pages import ROOT
 from natural_answers import STYLES, WRITTEN
 from rosbeat.grading.answers import subject_of
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.run import Plan, Pool, grade
+from rosbeat.grading.pool import Pool
+from rosbeat.grading.run import Plan, grade
 from rosbeat.grading.submissions import collect
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(300), pytest.mark.xdist_group("natural")]

@@ -17,12 +17,13 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading import run as module
+from rosbeat.grading import pool as module
 from rosbeat.grading.jobs import FORGED, LOST, Evidence, Job, read_line, to_line
 from rosbeat.grading.judging import judge
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.marks import Points
-from rosbeat.grading.run import Plan, Pool, Worker, cause_of, files_before, grade
+from rosbeat.grading.pool import Pool, Worker, files_before
+from rosbeat.grading.run import Plan, cause_of, grade
 from rosbeat.grading.submissions import collect
 from rosbeat.grading.worker import environment
 from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
@@ -477,7 +478,7 @@ def _names(pool):
 @pytest.mark.ros
 def test_it_ends_with_whoever_has_started_it(eventually):
     program = (
-        "import sys, time\nfrom rosbeat.grading.run import Worker\n"
+        "import sys, time\nfrom rosbeat.grading.pool import Worker\n"
         "print(Worker().pid, flush=True)\ntime.sleep(600)"
     )
     parent = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)
