@@ -5,13 +5,13 @@ import threading
 import time
 from functools import partial
 
-import nasty  # answers that go wrong in every way
 import pytest
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
 
+import failing_answers  # answers that go wrong in every way
 from rosbeat.ros.scenario import Add, Pause, Publish, Remove, Resume, SetParameter, feeder, observe
 
 pytestmark = pytest.mark.ros
@@ -182,12 +182,12 @@ def test_short_sleeps_take_no_time_and_endless_ones_are_faults():
         assert fault.code == "time.sleep(seconds)"
 
 
-@pytest.mark.parametrize("case", nasty.ENDLESS)
+@pytest.mark.parametrize("case", failing_answers.ENDLESS)
 def test_what_never_ends_is_ended(case):
     # Long enough for the node to be made on a busy machine, so that it ends where it never ends.
-    seen = observe(nasty.ENDLESS[case], 5, deadline=0.8)
+    seen = observe(failing_answers.ENDLESS[case], 5, deadline=0.8)
     fault = seen.faults[0]
-    at_birth = case in nasty.AT_BIRTH
+    at_birth = case in failing_answers.AT_BIRTH
     assert (fault.kind, fault.callback) == ("DeadlinePassed", "__init__" if at_birth else "beat")
     assert fault.node == ("" if at_birth else "/nasty")
     text = "still spinning after 5 s" if "executor" in case else "still running after 0.8 s"
@@ -197,17 +197,17 @@ def test_what_never_ends_is_ended(case):
     assert_all_is_well()
 
 
-@pytest.mark.parametrize("case", nasty.RAISING)
+@pytest.mark.parametrize("case", failing_answers.RAISING)
 def test_what_raises_is_a_fault(case):
-    answer, kind = nasty.RAISING[case]
+    answer, kind = failing_answers.RAISING[case]
     seen = observe(answer, 5)
     assert [fault.kind for fault in seen.faults] == [kind]
     assert_all_is_well()
 
 
-@pytest.mark.parametrize("case", nasty.HARMLESS)
+@pytest.mark.parametrize("case", failing_answers.HARMLESS)
 def test_what_does_no_harm_is_no_fault(case):
-    seen = observe(nasty.HARMLESS[case], 5)
+    seen = observe(failing_answers.HARMLESS[case], 5)
     assert not seen.faults
     assert [s.time for s in seen.samples] == BEATS
     assert_all_is_well()
@@ -218,7 +218,7 @@ def test_what_does_no_harm_is_no_fault(case):
 def test_a_function_may_start_ros_before_it_makes_its_node():
     def main():
         rclpy.init()
-        return nasty.Base()
+        return failing_answers.Base()
 
     seen = observe(main, 5)
     assert not seen.faults
@@ -229,7 +229,7 @@ BEATS = [n / 2 for n in range(1, 11)]
 
 
 def assert_all_is_well():
-    seen = observe(nasty.Base, 5)
+    seen = observe(failing_answers.Base, 5)
     assert [s.time for s in seen.samples] == BEATS
     assert (seen.faults, seen.printed) == ((), 0)
     assert sum([1, 2]) == 3
@@ -239,7 +239,7 @@ def test_interrupt_in_an_observation_is_an_interrupt():
     press = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     press.start()
     with pytest.raises(KeyboardInterrupt):
-        observe(nasty.ENDLESS["loop that catches everything"], 5, deadline=60)
+        observe(failing_answers.ENDLESS["loop that catches everything"], 5, deadline=60)
     press.join()
     assert_all_is_well()
 

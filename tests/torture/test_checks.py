@@ -86,7 +86,7 @@ def test_a_check_of_what_never_ends_answers_and_the_kernel_lives(names):
         right = kernel.run(PROBE).text
         for number, name in enumerate(names):
             call = "told({})" if FULL or number == 0 else "seen({})"
-            reply = kernel.run(call.format(f"nasty.ENDLESS[{name!r}]"))
+            reply = kernel.run(call.format(f"failing_answers.ENDLESS[{name!r}]"))
             assert reply.error == "", (name, reply)
             assert reply.text.startswith(("failed", "DeadlinePassed")), (name, reply)
             assert reply.seconds < WITHIN, (name, reply)
@@ -112,9 +112,9 @@ def test_cells_that_spoil_the_kernel_do_not_spoil_the_check():
 
 
 INTERRUPTED = {
-    "loop": "nasty.loop",
-    "catches everything": "nasty.swallow",
-    "suppresses": "nasty.suppress",
+    "loop": "failing_answers.loop",
+    "catches everything": "failing_answers.swallow",
+    "suppresses": "failing_answers.suppress",
 }
 
 
