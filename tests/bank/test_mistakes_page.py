@@ -39,5 +39,5 @@ def test_no_line_of_the_table_is_out_of_form():
 
 
 def test_no_id_is_given_twice():
-    parts = (mistakes._OF_THE_TABLE, mistakes._OTHERS, mistakes._OF_PAGES)
+    parts = (mistakes._OF_THE_TABLE, mistakes._PAGES_00_TO_06, mistakes._PAGES_07_TO_13)
     assert len(MISTAKES) == sum(len(part) for part in parts)
