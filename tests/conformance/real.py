@@ -45,7 +45,7 @@ from conformance.machine import Watch, read_lines
 from conformance.programs import JOURNAL, Case, Entry, Process
 
 #: Processes that run at once, and their start, keep two cores busy; more would disturb each other.
-PROCESSES_AT_ONCE = 24
+PROCESSES_AT_ONCE = 16
 #: Cases that run together begin one after the other, so that their timers are not due together.
 STAGGER = 0.037
 _OF_EVERY_NODE = ("/rosout", "/parameter_events")
