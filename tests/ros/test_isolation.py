@@ -76,6 +76,12 @@ def test_code_that_gets_on_has_more_time():
     assert looks[0] >= began + 2  # only when the time is up: a look may be slow
 
 
+def test_code_that_gets_on_for_ever_ends_all_the_same():
+    with Deadline(SHORT, gets_on=lambda: True) as deadline:
+        loop()
+    assert deadline.passed
+
+
 @pytest.mark.parametrize("case", ENDLESS)
 def test_endless_code_ends_and_nothing_is_left(case):
     before = state()
