@@ -13,7 +13,7 @@ from rosbeat.diagnosis.topic_snapshot import StaleBuild
 from rosbeat.errors import CommandError, SessionError
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.inspection import inspect_topic
-from rosbeat.ros.world import World, full_topic
+from rosbeat.ros.session_core import SessionCore, full_topic
 
 #: The last domain id that there is (RTPS specification, section 9.6.1).
 _LAST_DOMAIN = 232
@@ -45,11 +45,11 @@ def explain_domain(
     domain = _checked_domain(domain_id)
     if sys.stderr.isatty():
         print(f"Looking at {name} in ROS domain {domain} ...", file=sys.stderr)
-    world = World(0, domain)
+    core = SessionCore(0, domain)
     try:
-        scene = inspect_topic(world, name, span)
+        scene = inspect_topic(core, name, span)
     finally:
-        world.close()
+        core.close()
     return explain(name, replace(scene, stale_builds=stale_builds(name)))
 
 

@@ -11,7 +11,7 @@ from rosbeat.ros import session
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.inspection import inspect_topic
-from rosbeat.ros.world import full_topic
+from rosbeat.ros.session_core import full_topic
 
 if TYPE_CHECKING:
     from rosbeat.panel.panel import Panel
@@ -74,7 +74,7 @@ class Session(session.Session):
         name = full_topic("explain", topic)
         span = duration_ns(seconds, "explain(seconds=...)") / 1e9
         try:
-            return explain_scene(name, inspect_topic(self._world, name, span))
+            return explain_scene(name, inspect_topic(self._core, name, span))
         except KeyboardInterrupt as interrupt:
             show_briefly(interrupt, "you stopped the looking; the session goes on.")
             raise
@@ -95,9 +95,9 @@ class Session(session.Session):
         from rosbeat.panel.panel import Panel
         from rosbeat.panel.session_adapter import SessionInstruments
 
-        world = self._world
-        if world.panel is not None:
-            world.panel.close()
+        core = self._core
+        if core.panel is not None:
+            core.panel.close()
         # The panel must not hold this session, which ends when nothing else refers to it.
-        world.panel = made = Panel(SessionInstruments(world))
+        core.panel = made = Panel(SessionInstruments(core))
         return made

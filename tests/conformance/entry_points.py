@@ -97,6 +97,7 @@ class Outcome:
         printed: The lines that it printed itself.
         logs: Its log lines, of each node.
         race: Which race within rclpy decided how it ended; empty in most runs.
+        late: How late its signal was sent, in seconds, by the clock of its own log lines.
     """
 
     returncode: int | None
@@ -105,6 +106,7 @@ class Outcome:
     printed: list[str]
     logs: dict[str, list[Line]]
     race: str = ""
+    late: float = 0.0
 
 
 def _both(name: str, file: str, at: float = 1.5) -> list[Run]:
@@ -216,6 +218,18 @@ class _Process:
         if not self.has_logged.wait(30):
             raise TimeoutError("it neither logged anything nor ended")
 
+    def signal_after(self, seconds: float, number: signal.Signals) -> float:
+        """Send a signal so long after the first log line, and return how late it was sent.
+
+        Counted from the line's own stamp: on a busy machine the line is read later.
+        """
+        logs = self.logs()
+        due = (logs[0][0] if logs else time.time()) + seconds
+        while (left := due - time.time()) > 0:
+            time.sleep(left)
+        self.process.send_signal(number)
+        return time.time() - due
+
     def __enter__(self) -> _Process:
         return self
 
@@ -248,9 +262,9 @@ def run_program(run: Run, domain: int) -> Outcome:
             others[-1].wait_for_start()
         one = stack.enter_context(_Process(run.file, run.arguments, domain))
         one.wait_for_start()
+        late = 0.0
         if run.signal is not None:
-            time.sleep(run.at)
-            one.process.send_signal(run.signal)
+            late = one.signal_after(run.at, run.signal)
         ended = _ends(one.process, 15)
         if not ended and run.signal is not signal.SIGTERM:
             raise TimeoutError(f"{run.name} does not end")
@@ -258,7 +272,7 @@ def run_program(run: Run, domain: int) -> Outcome:
         printed = one.end()
         logs = sorted(line for each in (*others, one) for line in each.logs())
         outcome = outcome_of(one.process.returncode, printed, "".join(one.stderr), logs)
-        return replace(outcome, race=_race(outcome) if ended else LOST)
+        return replace(outcome, race=_race(outcome) if ended else LOST, late=late)
 
 
 def _ends(process: subprocess.Popen[str], seconds: float) -> bool:
@@ -294,7 +308,8 @@ def measure_programs(
 ) -> dict[str, Outcome | str]:
     """Run programs as real processes, several at once.
 
-    What is measured anew, whatever came of it, is a program during which the machine stood still.
+    What is measured anew, whatever came of it, is a program during which the machine stood still
+    or whose signal was sent late.
 
     Args:
         runs: The programs.
@@ -318,7 +333,7 @@ def measure_programs(
                 outcome = run_program(run, domain)
             finally:
                 free.put(domain)
-            lag = watch.lag(began, time.monotonic())
+            lag = max(watch.lag(began, time.monotonic()), outcome.late)
             if lag <= LINES_APART / 3:
                 return outcome
             if time.monotonic() > give_up:

@@ -241,7 +241,7 @@ def test_an_own_node_hears_them(joined):
 
 
 def test_nothing_is_left_behind(joined, eventually):
-    hidden = lambda: [name for name in joined._world.graph_observer.nodes() if is_hidden(name)]  # noqa: E731
+    hidden = lambda: [name for name in joined._core.graph_observer.nodes() if is_hidden(name)]  # noqa: E731
     before = hidden()
     joined.explain("cuont", seconds=0)
     eventually(lambda: hidden() == before, 30)

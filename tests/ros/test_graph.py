@@ -160,7 +160,7 @@ def test_what_is_asked_for_is_checked(joined, says, capsys):
 
 def test_the_observer_is_no_node_of_the_session_and_has_nothing_to_say(empty_domain):
     with Session(domain_id=empty_domain) as ros:
-        observer = ros._world.graph_observer
+        observer = ros._core.graph_observer
         assert ros.nodes == ()
         assert ros.graph().nodes == ros.graph().endpoints == ()
         assert observer.get_name().startswith("_")
@@ -179,7 +179,7 @@ def test_a_node_that_is_listed_after_it_has_left_does_not_count(
         two.add(Talker)
         eventually(lambda: one.graph().nodes == ("/talker",), 30)
         # As the middleware does it now and then on a busy machine.
-        observer = one._world.graph_observer
+        observer = one._core.graph_observer
         listed = [*observer.get_node_names_and_namespaces(), ("ghost", "/"), ("talker", "/")]
         monkeypatch.setattr(observer, "get_node_names_and_namespaces", lambda: listed)
         assert one.graph().nodes == ("/talker",)

@@ -109,7 +109,7 @@ def test_a_fault_is_shown_in_the_next_call_and_the_others_go_on(ros, capsys, eve
     ros.add(partial(Doer, lambda _: 1 / 0, period=0.01))
     ticker = ros.add(partial(Ticker, 0.01))
     ros.start()
-    eventually(lambda: ros._world.recorder.faults)
+    eventually(lambda: ros._core.recorder.faults)
     assert capsys.readouterr().err == ""
     ros.logs()
     assert capsys.readouterr().err.count("ZeroDivisionError") == 1

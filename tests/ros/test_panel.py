@@ -46,7 +46,7 @@ def live(ros):
 
 @pytest.fixture
 def instruments(live):
-    made = SessionInstruments(live._world)
+    made = SessionInstruments(live._core)
     yield made
     made.release()
 
@@ -69,7 +69,7 @@ def test_the_newest_message_of_each_publisher(instruments, live, eventually):
 def test_exceptions_and_log_lines(instruments, live, eventually, capsys):
     live.add(partial(Doer, lambda _: 1 / 0, period=0.01))
     live.add(partial(Speaker, period=0.01))
-    eventually(lambda: live._world.recorder.faults and live._world.recorder.logs)
+    eventually(lambda: live._core.recorder.faults and live._core.recorder.logs)
     news = instruments.news()
     assert [fault.kind for fault in news.faults] == ["ZeroDivisionError"]
     assert news.logs
@@ -204,7 +204,7 @@ def test_running_the_cell_again_leaves_one_panel(live, in_a_browser):
         panel = live.panel()
         panel._heard({"do": "open"})
         live.add(Sensor)
-        live._world.panel._instruments.graph()
+        live._core.panel._instruments.graph()
         panel._heard({"do": "publish", "topic": "/temperature", "value": 1.0})
     assert len(panel_threads()) == 1
     assert [node.get_name() for node in live.nodes] == ["sensor", INJECTOR]

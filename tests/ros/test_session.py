@@ -313,8 +313,8 @@ def test_everybody_is_told_of_a_shutdown_even_if_one_raises():
         raise ValueError
 
     with Session() as ros:
-        ros._world.context.on_shutdown(fail)
-        ros._world.context.on_shutdown(lambda: told.append(True))
+        ros._core.context.on_shutdown(fail)
+        ros._core.context.on_shutdown(lambda: told.append(True))
     assert told == [True]
 
 
@@ -337,8 +337,8 @@ def test_sessions_closed_in_any_order():
 def test_an_ended_context_keeps_nothing_alive():
     with Session() as first:
         context = default()
-        world = weakref.ref(first._world)
-    assert context.watcher is None
+        world = weakref.ref(first._core)
+    assert context.core is None
     context.init()
     context.shutdown()
     context.try_shutdown()

@@ -17,8 +17,8 @@ from rosbeat.panel.sampling import NUMERIC_TYPES, News
 from rosbeat.records import GraphSnapshot
 from rosbeat.ros.errors import no_such_node, session_has_ended, session_is_not_live
 from rosbeat.ros.launch import Maker
+from rosbeat.ros.session_core import SessionCore, find, state_of
 from rosbeat.ros.test_nodes import Injector, TopicFault
-from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import NodeState
@@ -38,12 +38,12 @@ class SessionInstruments:
     methods that change something raise `RosbeatError` if they cannot.
 
     Args:
-        world: The session's world. The panel must not hold a reference to the `Session` itself,
+        core: The session's state. The panel must not hold a reference to the `Session` itself,
             which closes when nothing else refers to it.
     """
 
-    def __init__(self, world: World) -> None:
-        self._world = world
+    def __init__(self, core: SessionCore) -> None:
+        self._core = core
         # Clicks come in whichever thread the kernel has for them.
         self._lock = RLock()
         self._messages = self._logs = self._faults = 0
@@ -58,15 +58,15 @@ class SessionInstruments:
 
     def now_ns(self) -> int:
         """Return the nanoseconds since the session began."""
-        return self._world.now()
+        return self._core.now()
 
     def is_live(self) -> bool:
         """Return whether the nodes run against the wall clock."""
-        return self._world.live is not None
+        return self._core.live is not None
 
     def news(self) -> News:
         """Return what happened since this was last asked."""
-        recorder = self._world.recorder
+        recorder = self._core.recorder
         self._messages, found = recorder.since(self._messages)
         logs, faults = recorder.logs[self._logs :], recorder.faults[self._faults :]
         self._logs, self._faults = self._logs + len(logs), self._faults + len(faults)
@@ -77,10 +77,10 @@ class SessionInstruments:
         """Return the graph; looked at anew when a node has changed, and every second."""
         outline = [
             (one.name, id(one.node), len(_publishers(one)), len(one.entries))
-            for one in self._world.states()
+            for one in self._core.states()
         ]
         if outline != self._outline or time.monotonic() - self._looked > _FRESH:
-            self._graph = self._world.graph()
+            self._graph = self._core.graph()
             self._outline, self._looked = outline, time.monotonic()
             with self._lock:
                 self._apply_faults()
@@ -91,7 +91,7 @@ class SessionInstruments:
 
         The panel's own node is not among them.
         """
-        states = [one for one in self._world.states() if one.node is not self._injector]
+        states = [one for one in self._core.states() if one.node is not self._injector]
         found = {state.name: _condition(state) for state in states}
         for name in found:  # the page may have made one anew
             self._stopped.pop(name, None)
@@ -102,28 +102,28 @@ class SessionInstruments:
     def pause(self, node: str) -> None:
         """Run none of a node's callbacks."""
         with self._acting():
-            self._world.pause(node)
+            self._core.pause(node)
 
     def resume(self, node: str) -> None:
         """Run a paused node's callbacks again."""
         with self._acting():
-            self._world.resume(node)
+            self._core.resume(node)
 
     def stop(self, node: str) -> None:
         """Destroy a node, and remember how it was made."""
         with self._acting():
-            state = find(self._world, node)
+            state = find(self._core, node)
             self._stopped[state.name] = self._maker(state)
-            self._world.destroy(state)
+            self._core.destroy(state)
 
     def start(self, node: str) -> None:
         """Make a stopped or ended node again."""
         with self._acting():
-            state = self._world.named(node)
+            state = self._core.named(node)
             maker = self._maker(state) if state else self._stopped.get(node)
             if maker is None:
                 raise no_such_node(node, list(self._stopped))
-            self._world.restart(node, maker)
+            self._core.restart(node, maker)
             self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:
@@ -157,9 +157,9 @@ class SessionInstruments:
             for fault in self._topic_faults.values():
                 fault.remove()
             self._topic_faults.clear()
-            state = self._world.state_of(self._injector)
+            state = self._core.state_of(self._injector)
             if state is not None:
-                self._world.destroy(state)
+                self._core.destroy(state)
             self._injector = None
 
     # How it works.
@@ -167,7 +167,7 @@ class SessionInstruments:
     @contextmanager
     def _acting(self) -> Iterator[None]:
         with self._lock:
-            if self._world.closed:
+            if self._core.closed:
                 raise session_has_ended()
             if not self.is_live():
                 raise session_is_not_live()
@@ -175,9 +175,9 @@ class SessionInstruments:
 
     def _injecting(self) -> Injector:
         """Return the panel's own node, made when it is first needed."""
-        if self._world.state_of(self._injector) is None:
-            self._injector = Injector(self._world.context)
-            self._world.spin_node(state_of(self._world, self._injector))
+        if self._core.state_of(self._injector) is None:
+            self._injector = Injector(self._core.context)
+            self._core.spin_node(state_of(self._core, self._injector))
         assert self._injector is not None
         return self._injector
 
@@ -193,13 +193,13 @@ class SessionInstruments:
 
     def _apply_faults(self) -> None:
         for fault in self._topic_faults.values():
-            for state in self._world.states():
+            for state in self._core.states():
                 if state.node is not self._injector:
                     fault.apply(_publishers(state))
 
     def _maker(self, state: NodeState) -> Maker:
         """Return what made a node; its class, if a node was handed to `ros.add` ready-made."""
-        return self._world.makers.get(state.node) or Maker(type(state.node))
+        return self._core.makers.get(state.node) or Maker(type(state.node))
 
 
 def _publishers(state: NodeState) -> list[Any]:

@@ -2,7 +2,7 @@
 
 Only this folder imports rclpy. `docs/simulation.md` explains how virtual time works.
 
-- The session: `session` (the public interface), `world` (the state of one session), `errors` (its
+- The session: `session` (the public interface), `session_core` (its state), `errors` (its
   refusals, and what it prints).
 - Virtual time: `virtual_time` (the loop), `processes` (nodes, their entities, simulated processes),
   `wait_set` (what goes through rclpy's own wait set), `clock` (the nodes' clocks, and functions

@@ -26,10 +26,10 @@ from rosbeat.records import Endpoint
 from rosbeat.ros.exception_origin import asking
 from rosbeat.ros.graph import qos_of
 from rosbeat.ros.processes import NodeState, callback_name
-from rosbeat.ros.recording import Entity, Message, type_name, watcher_of
+from rosbeat.ros.recording import Entity, Message, core_of, type_name
 
 if TYPE_CHECKING:
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 SERVER, CLIENT = "action server", "action client"
 #: The services of an action, behind `/_action/`: their types, and the first word of QoS options.
@@ -48,7 +48,7 @@ class ActionEnd:
 
     def __init__(
         self,
-        world: World,
+        core: SessionCore,
         state: NodeState,
         kind: str,
         entity: Any,  # noqa: ANN401 - one of the two
@@ -56,7 +56,7 @@ class ActionEnd:
         options: dict[str, Any],
     ) -> None:
         self.kind, self.entity, self.name = kind, entity, name
-        self._world, self._state, self._options = world, state, options
+        self._core, self._state, self._options = core, state, options
         self._prepare_server() if kind == SERVER else self._prepare_client()
 
     @property
@@ -98,7 +98,7 @@ class ActionEnd:
         server.execute = partial(self._serve, server.execute)
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
-        self._world.heard(self._state, self.kind, "serve", self.name)
+        self._core.heard(self._state, self.kind, "serve", self.name)
         await execute(taken)
         self.published("status")  # of goals that were accepted
 
@@ -109,7 +109,7 @@ class ActionEnd:
             try:
                 return await await_or_execute(callback, goal)
             except Exception as error:
-                self._world.work_raised(self._state, callback_name(callback), error)
+                self._core.work_raised(self._state, callback_name(callback), error)
                 # With the logger that rclpy itself would have used.
                 self.entity._logger.error(f"Error raised in execute callback: {error}")
                 return self.entity.action_type.Result()
@@ -118,7 +118,7 @@ class ActionEnd:
 
     def published(self, topic: str) -> None:
         """Note that the server has published on one of the action's topics."""
-        self._world.sent("subscription", f"{self.name}/_action/{topic}", self._state)
+        self._core.sent("subscription", f"{self.name}/_action/{topic}", self._state)
 
     # A client.
 
@@ -137,11 +137,11 @@ class ActionEnd:
         # A status is stored for late-joining clients, to whom a thread sends it at no certain time.
         # No callback is called for it.
         if set(taken) - {"status"}:
-            self._world.heard(self._state, self.kind, "hear", self.name)
+            self._core.heard(self._state, self.kind, "hear", self.name)
         await execute(taken)
 
     def _next_id(self) -> UUID:
-        number = self._world.next_goal()
+        number = self._core.next_goal()
         if not number:
             return self._chance()
         return UUID(uuid=list(sha256(f"{self.name} {number}".encode()).digest()[:16]))
@@ -153,7 +153,7 @@ class ActionEnd:
 
     def _result(self, method: str, future: Future) -> Message:
         reason = f"a response from the action {self.name}"
-        if not self._world.wait(f"client.{method}", reason, future.done, None, self.entity):
+        if not self._core.wait(f"client.{method}", reason, future.done, None, self.entity):
             raise SessionError(
                 f"No action server has responded to {method} for the action {self.name}.",
                 "Either no node of this session offers that action, or its execute callback does "
@@ -166,7 +166,7 @@ class ActionEnd:
         client = self.entity
         if not client.server_is_ready():
             reason, done = f"a server of the action {self.name}", client.server_is_ready
-            self._world.wait("client.wait_for_server", reason, done, timeout_sec, None)
+            self._core.wait("client.wait_for_server", reason, done, timeout_sec, None)
         return bool(client.server_is_ready())
 
 
@@ -188,13 +188,13 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
         options = order.bind(entity, *given, **named)
         options.apply_defaults()
         node = options.arguments["node"]
-        world = watcher_of(node)
-        state = world.state_of(node) if world is not None else None
-        if world is not None and state is not None:
+        core = core_of(node)
+        state = core.state_of(node) if core is not None else None
+        if core is not None and state is not None:
             name = node.resolve_service_name(options.arguments["action_name"] + _SEND_GOAL)
             name = name.removesuffix(_SEND_GOAL)
-            state.actions.append(ActionEnd(world, state, kind, entity, name, options.arguments))
-            world.action_ends.add(entity)
+            state.actions.append(ActionEnd(core, state, kind, entity, name, options.arguments))
+            core.action_ends.add(entity)
 
     return init
 

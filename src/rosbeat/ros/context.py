@@ -19,11 +19,11 @@ from rclpy.context import Context
 
 from rosbeat.domains import SESSION_DOMAINS
 from rosbeat.ros.errors import note
-from rosbeat.ros.recording import Watcher, in_kernel
+from rosbeat.ros.recording import in_kernel
 
 if TYPE_CHECKING:
+    from rosbeat.ros.session_core import SessionCore
     from rosbeat.ros.simulated_program import SimulatedProgram
-    from rosbeat.ros.world import World
 
 #: No node says anything on file descriptor 2: log lines are printed in the cell that ran the node,
 #: the same in JupyterLab and in a test. Nor are log files written into the home directory.
@@ -73,18 +73,18 @@ class SessionContext(Context):
     default context. While a session is open, its context is the default.
 
     Args:
-        watcher: Observer that is notified of every node and entity created in this context.
+        core: What is notified of every node and entity created in this context.
         domain_id: The ROS domain to join; None for a private context, which no participant outside
             of it can hear, whether in this process or in another.
 
     Attributes:
-        watcher: The observer; None when the session has ended, so that the context keeps nothing
+        core: What is notified; None when the session has ended, so that the context keeps nothing
             alive.
     """
 
-    def __init__(self, watcher: Watcher, domain_id: int | None) -> None:
+    def __init__(self, core: SessionCore, domain_id: int | None) -> None:
         super().__init__()
-        self.watcher: Watcher | None = watcher
+        self.core: SessionCore | None = core
         # Always an older one, so that these references never form a circle.
         self.previous: Context | None = rclpy.utilities.g_default_context
         self._is_private = domain_id is None
@@ -96,19 +96,19 @@ class SessionContext(Context):
 
     def init(self, args: Any = None, **_: Any) -> None:  # noqa: ANN401 - rclpy's own signature
         """Answer a learner's `rclpy.init()`: this context is running already."""
-        if self.watcher is not None:
-            self.watcher.explain_init()
+        if self.core is not None:
+            self.core.explain_init()
 
     def shutdown(self) -> None:
         """Answer a learner's `rclpy.shutdown()`: the session goes on."""
-        if self.watcher is not None:
+        if self.core is not None:
             self.install()  # rclpy.shutdown() has just forgotten the default context
-            self.watcher.explain_shutdown()
+            self.core.explain_shutdown()
 
     def try_shutdown(self) -> None:
         """Answer a learner's `rclpy.try_shutdown()`: the session goes on."""
-        if self.watcher is not None:
-            self.watcher.explain_shutdown()
+        if self.core is not None:
+            self.core.explain_shutdown()
 
     @contextmanager
     def making_node(self) -> Iterator[None]:
@@ -118,7 +118,7 @@ class SessionContext(Context):
 
     def end(self) -> None:
         """Shut the context down for real and hand the default back."""
-        self.watcher = None
+        self.core = None
         self.previous = _open_context(self.previous)
         if rclpy.utilities.g_default_context is self:
             self.uninstall(self.previous)
@@ -154,19 +154,19 @@ class ProgramContext(Context):
     process. The program's nodes are created in the session's context.
 
     Args:
-        world: The session's world.
+        core: The state of the session.
         program: The program, which is notified of a shutdown.
 
     Attributes:
-        watcher: The session's world.
+        core: The state of the session.
         program: The program.
         home: The context in which nodes are created.
     """
 
-    def __init__(self, world: World, program: SimulatedProgram) -> None:
+    def __init__(self, core: SessionCore, program: SimulatedProgram) -> None:
         super().__init__()
-        self.watcher, self.program = world, program
-        self.home: Context = world.context
+        self.core, self.program = core, program
+        self.home: Context = core.context
 
     @property
     def ros_arguments(self) -> list[str]:
@@ -186,7 +186,7 @@ class ProgramContext(Context):
 
 
 def _open_context(context: Context | None) -> Context | None:
-    while isinstance(context, SessionContext) and context.watcher is None:
+    while isinstance(context, SessionContext) and context.core is None:
         context = context.previous
     return context
 

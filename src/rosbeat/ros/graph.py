@@ -40,7 +40,7 @@ from rosbeat.ros.qos_events import fit, limit_ns
 from rosbeat.ros.recording import Channel, Memory, Message, Recorder, Unwatched, type_name
 
 if TYPE_CHECKING:
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 
 # The graph of a session's own nodes.
@@ -314,13 +314,13 @@ def poll(done: Callable[[], object], deadline: float | None) -> bool:
     return True
 
 
-def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
+def wait_for_nodes(core: SessionCore, names: list[str], seconds: float) -> None:
     """Wait until nodes of these full names are in the graph, with all that belongs to them.
 
     Raises:
         SessionError: If the session is private, or they do not come.
     """
-    observer = world.graph_observer
+    observer = core.graph_observer
     if observer is None:
         raise SessionError(
             "This session cannot see nodes of other processes.",
@@ -333,21 +333,21 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     def are_there() -> bool:
         # A node's name, its publishers and its subscriptions come one after the other.
         unchanged = next(looks) >= _SAME_POLLS
-        return unchanged and wanted <= set(world.graph().nodes) and observer.knows_all_names()
+        return unchanged and wanted <= set(core.graph().nodes) and observer.knows_all_names()
 
     try:
         poll(are_there, time.monotonic() + seconds)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, "you stopped waiting; the session keeps running.")
         raise
-    seen = world.graph().nodes
+    seen = core.graph().nodes
     missing = [name for name in names if name not in seen]
     if missing:
         others = [name for name in seen if name not in missing]
         raise SessionError(
             f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not in the graph after "
             f"{seconds:g} s.",
-            f"In domain {world.domain_id} the session sees: {', '.join(seen) or 'no node at all'}.",
+            f"In domain {core.domain_id} the session sees: {', '.join(seen) or 'no node at all'}.",
             nearest(
                 missing[0],
                 others,

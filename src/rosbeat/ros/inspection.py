@@ -35,7 +35,7 @@ from rosbeat.ros.context import SESSION_ARGUMENTS
 from rosbeat.ros.graph import GraphObserver, HiddenNode, domains_in_use, owner, poll
 from rosbeat.ros.processes import NodeState
 from rosbeat.ros.recording import message_class
-from rosbeat.ros.world import World
+from rosbeat.ros.session_core import SessionCore
 
 #: A live callback that runs for so many seconds of wall time blocks the others.
 _BLOCKING_SECONDS = 1.0
@@ -43,36 +43,36 @@ _BLOCKING_SECONDS = 1.0
 _NEWEST = 100
 
 
-def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
+def inspect_topic(core: SessionCore, topic: str, seconds: float) -> Scene:
     """Return all that is known around a topic.
 
     In a domain with other processes, a hidden node listens to them, for so many seconds of wall
     time at most, and asks their nodes whether they run.
     """
-    blocked = _blocked(world)
-    observer = world.graph_observer
+    blocked = _blocked(core)
+    observer = core.graph_observer
     if observer is not None:
         observer.wait_until_stable()
-    graph = world.graph()
-    external = _External() if observer is None else _listen(world, observer, topic, graph, seconds)
-    with world.recorder.lock:
-        messages = world.recorder.times(topic)
-    states = world.states()
-    other_domains, private_sessions = _elsewhere(world, topic, graph)
+    graph = core.graph()
+    external = _External() if observer is None else _listen(core, observer, topic, graph, seconds)
+    with core.recorder.lock:
+        messages = core.recorder.times(topic)
+    states = core.states()
+    other_domains, private_sessions = _elsewhere(core, topic, graph)
     return Scene(
         graph,
-        world.now(),
+        core.now(),
         (
-            *_publishers(world, topic, messages),
-            *_subscriptions(world, topic, messages),
+            *_publishers(core, topic, messages),
+            *_subscriptions(core, topic, messages),
             *external.beats,
         ),
-        (*blocked, *(_condition(world, state) for state in states), *external.conditions),
+        (*blocked, *(_condition(core, state) for state in states), *external.conditions),
         external.rate_hz,
         frozenset(state.name for state in states),
-        virtual=world.live is None,
-        waiting=world.virtual.has_work,
-        domain_id=-1 if observer is None else world.domain_id or 0,
+        virtual=core.live is None,
+        waiting=core.virtual.has_work,
+        domain_id=-1 if observer is None else core.domain_id or 0,
         other_domains=other_domains,
         private_sessions=private_sessions,
     )
@@ -81,13 +81,13 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
 # The nodes of the session.
 
 
-def _blocked(world: World) -> list[Condition]:
+def _blocked(core: SessionCore) -> list[Condition]:
     """Return the node that holds up the one thread in which all live callbacks run, if any."""
-    live = world.live
+    live = core.live
     if live is None or live.task is None:
         return []
-    work, state = live.task, world.state_of(live.current)
-    callback = world.recorder.newest_callback()
+    work, state = live.task, core.state_of(live.current)
+    callback = core.recorder.newest_callback()
     if poll(lambda: live.task is not work, time.monotonic() + _BLOCKING_SECONDS):
         return []
     if state is None or callback is None:
@@ -95,9 +95,9 @@ def _blocked(world: World) -> list[Condition]:
     return [Condition(state.name, BLOCKED, callback=callback.name)]
 
 
-def _condition(world: World, state: NodeState) -> Condition:
+def _condition(core: SessionCore, state: NodeState) -> Condition:
     if state.ended:
-        faults = [one for one in world.recorder.faults if one.node == state.name]
+        faults = [one for one in core.recorder.faults if one.node == state.name]
         return Condition(state.name, ENDED, faults[-1] if faults else None)
     for call in state.process.calls:
         if call.wait is not None and call.wait.reported:  # as a deadlock
@@ -111,20 +111,20 @@ def _condition(world: World, state: NodeState) -> Condition:
 _Messages = list[tuple[int, str, int]]
 
 
-def _publishers(world: World, topic: str, messages: _Messages) -> Iterator[Beat]:
-    for state in world.states():
+def _publishers(core: SessionCore, topic: str, messages: _Messages) -> Iterator[Beat]:
+    for state in core.states():
         counts = [tap.count for tap in state.taps if tap.topic == topic]
         if counts:
             number = sum(counts)
             # Of a node of this name that was replaced there may be more.
             times = [at for _, node, at in messages if node == state.name]
             times = times[-min(number, _NEWEST) :] if number else []
-            last, watched = times[-1] if times else -1, world.now() - state.born_ns
+            last, watched = times[-1] if times else -1, core.now() - state.born_ns
             yield Beat(state.name, "publisher", number, last, rate_of(times), watched)
 
 
-def _subscriptions(world: World, topic: str, messages: _Messages) -> Iterator[Beat]:
-    for state in world.states():
+def _subscriptions(core: SessionCore, topic: str, messages: _Messages) -> Iterator[Beat]:
+    for state in core.states():
         entries = [one for one in state.entries if (one.kind, one.name) == ("subscription", topic)]
         if entries:
             first = min(one.born for one in entries)
@@ -133,8 +133,8 @@ def _subscriptions(world: World, topic: str, messages: _Messages) -> Iterator[Be
                 state.name,
                 "subscription",
                 sum(one.calls for one in entries),
-                max(world.recorder.last_run(one.label_number) for one in entries),
-                watched_ns=world.now() - state.born_ns,
+                max(core.recorder.last_run(one.label_number) for one in entries),
+                watched_ns=core.now() - state.born_ns,
                 missed=missed,
                 since=len(messages) - missed,
             )
@@ -172,7 +172,7 @@ class _External:
 
 
 def _listen(
-    world: World, observer: GraphObserver, topic: str, graph: GraphSnapshot, seconds: float
+    core: SessionCore, observer: GraphObserver, topic: str, graph: GraphSnapshot, seconds: float
 ) -> _External:
     def outside(endpoints: list[Any]) -> list[Any]:
         found = filter(observer.is_outside, endpoints)
@@ -184,13 +184,13 @@ def _listen(
     asked = [one for one in both if graph.on(f"{one}/get_parameters", "server")]
     stamps: tuple[int, ...] = ()
     span: float | None = None
-    with _temporary_node(world.context) as (node, spin):
+    with _temporary_node(core.context) as (node, spin):
         services = {
             one: node.create_client(GetParameters, f"{one}/get_parameters") for one in asked
         }
         # Listen first: a callback that does not return may only begin meanwhile.
         if publishers and seconds:
-            stamps, span = _receive(world, node, topic, publishers, seconds, spin)
+            stamps, span = _receive(core, node, topic, publishers, seconds, spin)
         silent = _silent(services, spin)
     rate = rate_of(sorted(stamps))
     conditions = tuple(Condition(one, SILENT if one in silent else RUNNING) for one in asked)
@@ -224,13 +224,13 @@ def _spin_until(spin: _Spin, done: Callable[[], object]) -> None:
 
 
 def _receive(
-    world: World, node: Node, topic: str, publishers: list[Any], seconds: float, spin: _Spin
+    core: SessionCore, node: Node, topic: str, publishers: list[Any], seconds: float, spin: _Spin
 ) -> tuple[tuple[int, ...], float | None]:
     """Return when each message was sent, and for how many seconds it listened.
 
     The latter is None if it could not be connected.
     """
-    external = world.external_messages
+    external = core.external_messages
     stamps: list[int] = []
 
     def arrived(_: bytes, info: dict[str, int]) -> None:
@@ -289,7 +289,7 @@ _MOST_DOMAINS = 10
 
 
 def _elsewhere(
-    world: World, topic: str, graph: GraphSnapshot
+    core: SessionCore, topic: str, graph: GraphSnapshot
 ) -> tuple[tuple[OtherDomain, ...], bool]:
     """Look into other domains, if a side is missing here and other processes matter at all.
 
@@ -301,11 +301,11 @@ def _elsewhere(
     """
     publishers = graph.on(topic, "publisher")
     heard = graph.on(topic, "subscription") or any(end.matched > 0 for end in publishers)
-    is_alone = world.graph_observer is None and world.live is None
+    is_alone = core.graph_observer is None and core.live is None
     if is_alone or (publishers and heard):
         return (), False
     used = domains_in_use()
-    apart = {world.domain_id, *PRIVATE_IDS, *SESSION_DOMAINS}
+    apart = {core.domain_id, *PRIVATE_IDS, *SESSION_DOMAINS}
     shared = [number for number in used if number not in apart]
     found = tuple(_look_into(number, topic) for number in shared[:_MOST_DOMAINS])
     return found, any(number in SESSION_DOMAINS for number in used)

@@ -26,7 +26,7 @@ from rosbeat.ros.recording import repair_message_classes
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 _SIM_TIME = "use_sim_time"
 
@@ -130,7 +130,7 @@ def _refused(what: str, means: str) -> SessionError:
 
 
 def build_in(
-    world: World, targets: Sequence[Any], start: Launch, process: Process | None = None
+    core: SessionCore, targets: Sequence[Any], start: Launch, process: Process | None = None
 ) -> tuple[Node, ...]:
     """Make the nodes of a process in a session; if that fails, nothing of them is left there.
 
@@ -138,14 +138,14 @@ def build_in(
         NodeClassError: If a target is no class of nodes, function that returns one, or node.
         NodeConstructionError: If a constructor or function raises.
     """
-    before = world.states()
+    before = core.states()
     try:
-        with world.starting(start, process):
+        with core.starting(start, process):
             return tuple(_build_node(target) for target in targets)
     except BaseException:  # Interrupt, too
-        for state in world.states():
+        for state in core.states():
             if state not in before:
-                world.destroy(state)
+                core.destroy(state)
         raise
 
 

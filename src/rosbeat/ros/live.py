@@ -26,7 +26,7 @@ from rosbeat.ros.processes import Entry, take_message
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
 _STOP_TIMEOUT = 2.0
@@ -49,10 +49,10 @@ class LiveExecutor(SingleThreadedExecutor):
     `current` is the node whose callback is running, and `task` its task.
     """
 
-    def __init__(self, context: Context, world: World) -> None:
+    def __init__(self, context: Context, core: SessionCore) -> None:
         self.current: Node | None = None
         self.task: Task | None = None
-        self._world = world
+        self._core = core
         self._stopping = Event()
         super().__init__(context=context)
         self._thread = Thread(target=self.spin, name="rosbeat live", daemon=True)
@@ -60,11 +60,11 @@ class LiveExecutor(SingleThreadedExecutor):
     def get_nodes(self) -> list[Node]:
         """Return the nodes in order of creation; rclpy's own answer comes from an unordered set."""
         mine = self._nodes
-        return [one.node for one in self._world.states() if one.spinning and one.node in mine]
+        return [one.node for one in self._core.states() if one.spinning and one.node in mine]
 
     def start(self) -> None:
         """Begin to run callbacks."""
-        for state in self._world.states():
+        for state in self._core.states():
             for entry in state.entries if state.spinning else ():
                 self._run_taken_messages(entry)
         self._thread.start()
@@ -132,7 +132,7 @@ class LiveExecutor(SingleThreadedExecutor):
                 return
 
     def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
-        self._world.callback_ran(entity, node)
+        self._core.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 
     def _run_one(self) -> None:
@@ -152,7 +152,7 @@ class LiveExecutor(SingleThreadedExecutor):
             self.current = self.task = None
         error = error or handler.exception()
         if error is not None:
-            self._world.entity_raised(node, entity, error)
+            self._core.entity_raised(node, entity, error)
 
     def _break_off(self) -> None:
         # Nothing else ends Python code in another thread: a signal is handled in the main thread

@@ -26,7 +26,7 @@ from rosbeat.ros.processes import Entry, NodeState, Work, callback_name, message
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity, PublisherTap
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 # The middleware counts deadlines and lifespans by the wall clock, and in virtual time a minute
 # takes milliseconds. So a publisher or a subscription is made with three years more than the
@@ -251,8 +251,8 @@ class Deadlines(list[Deadline]):
 class Limits:
     """Count the missed deadlines and apply the lifespans of one session."""
 
-    def __init__(self, home: World) -> None:
-        self._home, self._thread = home, get_ident()
+    def __init__(self, core: SessionCore) -> None:
+        self._core, self._thread = core, get_ident()
         # By topic: the subscriptions that have a deadline, and how they hear of a message.
         self._waiting: dict[str, list[tuple[Entry, Callable[[], None]]]] = {}
         # By topic, where a lifespan may matter: for each message the wall clock just after it was
@@ -273,9 +273,9 @@ class Limits:
 
     def subscription_made(self, entry: Entry) -> None:
         """Count what a new subscription asks for."""
-        qos, home = entry.entity.qos_profile, self._home
+        qos, core = entry.entity.qos_profile, self._core
         lifespan = limit_ns(qos.lifespan)
-        taps = [tap for one in home.states() for tap in one.taps if tap.topic == entry.name]
+        taps = [tap for one in core.states() for tap in one.taps if tap.topic == entry.name]
         stored = [tap for tap in taps if tap.stores_for(qos)]
         # What is sent on topics that every node has is not recorded.
         if entry.name not in INFRASTRUCTURE_TOPICS and (
@@ -283,7 +283,7 @@ class Limits:
         ):
             for tap in taps:
                 self._note_what_is_sent(tap)
-            entry.take = partial(self._take_fresh, lifespan, home.now())
+            entry.take = partial(self._take_fresh, lifespan, core.now())
         heard = self._deadline_of(entry.state, entry.entity)
         if heard is None:
             return
@@ -300,20 +300,20 @@ class Limits:
         found = [one for one in endpoint.event_handlers if event_name(one) == "deadline"]
         if not (period and found):
             return None
-        home, (handler,), topic = self._home, found, endpoint.topic_name
+        core, (handler,), topic = self._core, found, endpoint.topic_name
         deadline = Deadline(handler, endpoint, period)
         called, source = callback_name(handler.callback), f"deadline of {topic}"
-        label = home.recorder.label(state.name, "event", called, source)
-        number = home.next_number()
+        label = core.recorder.label(state.name, "event", called, source)
+        number = core.next_number()
         deadline.entry = Entry(number, state, "event", handler, topic, label, deadline.take)
         state.entries.append(deadline.entry)
-        home.virtual.watch(deadline.entry)
-        home.virtual.deadlines.append(deadline)
+        core.virtual.watch(deadline.entry)
+        core.virtual.deadlines.append(deadline)
         return partial(self._heard, deadline)
 
     def _heard(self, deadline: Deadline) -> None:
-        virtual = self._home.virtual
-        if self._home.live is not None:
+        virtual = self._core.virtual
+        if self._core.live is not None:
             return
         if get_ident() == self._thread:
             deadline.heard(virtual.now)
@@ -321,17 +321,17 @@ class Limits:
             virtual.elsewhere.append(lambda: deadline.heard(virtual.now))
 
     def _note_what_is_sent(self, tap: PublisherTap) -> None:
-        sent, home = self._sent.setdefault(tap.topic, []), self._home
+        sent, core = self._sent.setdefault(tap.topic, []), self._core
         if tap not in self._noted:
             self._noted.add(tap)
-            tap.listen(lambda: sent.append((time.time_ns(), home.now(), tap)))
+            tap.listen(lambda: sent.append((time.time_ns(), core.now(), tap)))
 
     def _take_fresh(self, lifespan: int, born: int, entry: Entry, _: object) -> Work | None:
         """Take a message from a subscription, and drop those before it that have expired.
 
         The subscription has a lifespan of its own, or 0, and was made at `born`, in nanoseconds.
         """
-        handle, subscription, now = entry.handle, entry.entity, self._home.now()
+        handle, subscription, now = entry.handle, entry.entity, self._core.now()
         sent = self._sent.get(entry.name, [])
         while True:
             with handle:
@@ -347,7 +347,7 @@ class Limits:
             was_dropped = 0 < tap.lifespan_ns <= born - published
             if not was_dropped and not 0 < lifespan <= now - published:
                 return message_work(entry, taken)
-            recorder, label = self._home.recorder, entry.label
+            recorder, label = self._core.recorder, entry.label
             expired = recorder.label(label.node, "expired", label.name, label.source)
             recorder.add_callback(now, expired.number)
 

@@ -51,7 +51,7 @@ from rosbeat.ros.exception_origin import asking, is_message_class
 from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
 if TYPE_CHECKING:
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 #: What rclpy hands over without a base class or types: the messages, requests, responses, goals and
 #: results of generated classes, and the entities of a node, such as publishers, timers and clients.
@@ -481,9 +481,6 @@ class SessionLogger(RcutilsLogger):
 # context: if that belongs to a session, the session is told; if not, the original runs alone.
 
 
-#: What the hooks tell: the session's `World`.
-Watcher: TypeAlias = "World"
-
 ENTITY_METHODS = {
     "create_publisher": "publisher",
     "create_subscription": "subscription",
@@ -495,39 +492,39 @@ ENTITY_METHODS = {
 
 
 class Unwatched:
-    """Mix this into a node of the session's own, so that its watcher is not told."""
+    """Mix this into a node of the session's own, so that its session is not told."""
 
 
-def watcher_of(node: Node) -> Watcher | None:
-    """Return the watcher of a node's session; None if it is in no session, or not yet a node."""
+def core_of(node: Node) -> SessionCore | None:
+    """Return the `SessionCore` of a node; None if it is in no session, or not yet a node."""
     if isinstance(node, Unwatched):
         return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
-    return getattr(node.__dict__.get("_context"), "watcher", None)
+    return getattr(node.__dict__.get("_context"), "core", None)
 
 
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - passed on
         context: Any = kwargs.get("context") or get_default_context()
-        watcher = getattr(context, "watcher", None)
+        core = getattr(context, "core", None)
         name = kwargs.get("node_name", args[0] if args else None)
         with asking("Node.__init__", node, *args, **kwargs):
-            if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
+            if core is None or not isinstance(name, str) or isinstance(node, Unwatched):
                 _make_alone(partial(original, node, *args, **kwargs))
                 return
             # For a wrong name rclpy raises the same, and warns on stderr of a failed cleanup.
             validate_node_name(name)
-            start, said = watcher.start, list(kwargs.get("cli_args") or ())
+            start, said = core.start, list(kwargs.get("cli_args") or ())
             if hasattr(context, "home") and context.ok():  # a program's: see `ProgramContext`
                 kwargs["context"] = context.home
                 said += context.ros_arguments
             kwargs["cli_args"] = [*said, *start.arguments()] or None
             namespace = start.namespace or kwargs.get("namespace") or "/"
-            watcher.node_begins(start.name or name, namespace)
-            with watcher.context.making_node():
+            core.node_begins(start.name or name, namespace)
+            with core.context.making_node():
                 original(node, *args, **kwargs)
-        watcher.node_made(node)
+        core.node_made(node)
 
     return init
 
@@ -555,19 +552,19 @@ def in_kernel() -> bool:
 def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
     @wraps(original)
     def create(node: Node, *args: Any, **kwargs: Any) -> Entity:  # noqa: ANN401 - passed on
-        watcher = watcher_of(node)
+        core = core_of(node)
         with asking(original.__name__, *args, **kwargs):
-            if watcher is None:
+            if core is None:
                 return original(node, *args, **kwargs)
             _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
-            watcher.entity_begins(node)
+            core.entity_begins(node)
             if kind == "subscription":
-                _refuse_second_type(node, watcher, *args, **kwargs)
-            if watcher.counts_limits:
+                _refuse_second_type(node, core, *args, **kwargs)
+            if core.counts_limits:
                 entity = make_stretched(partial(original, node), kind, args, kwargs)
             else:
                 entity = original(node, *args, **kwargs)
-        watcher.entity_made(node, kind, entity)
+        core.entity_made(node, kind, entity)
         return entity
 
     return create
@@ -586,7 +583,7 @@ def _refuse_a_message(call: str, kind: object) -> None:
 
 def _refuse_second_type(
     node: Node,
-    watcher: Watcher,
+    core: SessionCore,
     msg_type: object = None,
     topic: object = None,
     *_: object,
@@ -606,7 +603,7 @@ def _refuse_second_type(
         topic = node.resolve_topic_name(topic)
     except (InvalidTopicNameException, rclpy_implementation.RCLError):
         return  # rclpy says so itself, with the name
-    for state in watcher.states():
+    for state in core.states():
         for end in (*state.node.publishers, *state.node.subscriptions):
             if end.topic_name == topic and end.msg_type is not msg_type:
                 package = msg_type.__module__.partition(".")[0]
@@ -623,20 +620,20 @@ def _install() -> None:
 
     @wraps(destroy)
     def watched_destroy(node: Node) -> None:
-        watcher = watcher_of(node)
-        if watcher is not None:
-            watcher.node_ends(node)
+        core = core_of(node)
+        if core is not None:
+            core.node_ends(node)
         destroy(node)
 
     @wraps(get_logger)
     def watched_logger(node: Node) -> RcutilsLogger:
-        watcher = watcher_of(node)
-        return get_logger(node) if watcher is None else watcher.logger_of(node, get_logger(node))
+        core = core_of(node)
+        return get_logger(node) if core is None else core.logger_of(node, get_logger(node))
 
     @wraps(infos)
     def watched_infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401 - passed on
         told = infos(node, *args, **kwargs)
-        return told if watcher_of(node) is None else as_written(told)
+        return told if core_of(node) is None else as_written(told)
 
     Node.__init__ = _watch_birth(Node.__init__)
     Node.destroy_node, Node.get_logger = watched_destroy, watched_logger

@@ -176,7 +176,7 @@ class Steps:
         self.subject = ""
         self.records: list[CallbackRecord] = []
         self.replies: list[Reply] = []
-        self._session, self._world = session, session._world
+        self._session, self._core = session, session._core
         self._steps = sorted(_with_cancels(steps), key=attrgetter("at_ns"))
         # By the id of a step: its publisher or client, and the goal that it sent.
         self._entities: dict[int, Any] = {}
@@ -203,16 +203,16 @@ class Steps:
 
     def run_until(self, end_ns: int) -> None:
         """Run virtual time until `end_ns`, and carry out the steps on the way."""
-        run_until = self._world.virtual.run_until
+        run_until = self._core.virtual.run_until
         for step in self._steps:
             if step.at_ns > end_ns:
                 break
-            run_until(max(step.at_ns, self._world.now()))
+            run_until(max(step.at_ns, self._core.now()))
             if isinstance(step, Add):
                 self._session.add(step.make, **step.start.options())
                 continue
             node, source = self._send(step) if isinstance(step, Sent) else self._change(step)
-            kind, now = type(step).__name__, self._world.now()
+            kind, now = type(step).__name__, self._core.now()
             self.records.append(CallbackRecord(now, node, "step", kind, source))
         run_until(end_ns)
 
@@ -268,19 +268,19 @@ class Steps:
         return partial(self._reply, name, self._requests[name])
 
     def _reply(self, name: str, number: int, word: str, data: dict[str, Any]) -> None:
-        self.replies.append(Reply(self._world.now(), name, number, word, data))
+        self.replies.append(Reply(self._core.now(), name, number, word, data))
 
     def _change(self, step: Step) -> tuple[str, str]:
         name, text = step.node or self.subject, ""
-        state = self._world.named("/" + name.lstrip("/"))
+        state = self._core.named("/" + name.lstrip("/"))
         if state is None:
             return name, "no such node"
         if isinstance(step, Remove):
-            self._world.destroy(state)
+            self._core.destroy(state)
         elif isinstance(step, Pause):
-            self._world.pause_node(state)
+            self._core.pause_node(state)
         elif isinstance(step, Resume) and not state.ended:
-            self._world.spin_node(state)
+            self._core.spin_node(state)
         elif isinstance(step, SetParameter | SetParameters):
             text = self._set(step, state, state.node)
         return state.name, text
@@ -301,7 +301,7 @@ class Steps:
         except RosbeatError:
             raise
         except Exception as error:  # a callback of the learner's own
-            self._world.callback_raised(state, "set_parameters", error)
+            self._core.callback_raised(state, "set_parameters", error)
             text = f"raised {type(error).__name__}"
         return f"{', '.join(values)}: {text}"
 
@@ -359,7 +359,7 @@ class _Run:
         self._add_answer, self._answer, self._others = add, answer, others
         self._seed, self._end = seed, duration_ns(seconds)
         self._session = Session(seed=seed)
-        self._world = self._session._world
+        self._core = self._session._core
         self._steps = Steps(self._session, steps)
         self._deadline = Deadline(deadline, self._note_expiry, self._gets_on)
         self._took = 0.0  # seconds until the time was up
@@ -376,7 +376,7 @@ class _Run:
         """Run everything; whatever is raised becomes a fault."""
         self._began = time.monotonic()
         # What has to be put back stands outside of the deadline, which hits what it finds.
-        with self._world.running([self._answer.make]), self._deadline:
+        with self._core.running([self._answer.make]), self._deadline:
             run_in_generator(self._play)
 
     def _play(self) -> None:
@@ -386,7 +386,7 @@ class _Run:
                 self._add(_maker(other))
             with self._starting():
                 self._add_answer(self, self._answer)
-            self._world.console.begin(quiet=True)
+            self._core.console.begin(quiet=True)
             self._steps.run_until(self._end)
             self._note_waiting()
         except DeadlinePassed:
@@ -404,13 +404,13 @@ class _Run:
         no time: the run begins when the nodes are there.
         """
         self._constructing = True
-        self._world.node_begins = lambda *_: None  # type: ignore[method-assign]  # undone below
-        self._world.virtual.constructor_waits = self._count_wait
+        self._core.node_begins = lambda *_: None  # type: ignore[method-assign]  # undone below
+        self._core.virtual.constructor_waits = self._count_wait
         try:
             yield
         finally:
-            self._world.virtual.constructor_waits = None
-            del self._world.node_begins
+            self._core.virtual.constructor_waits = None
+            del self._core.node_begins
         self._constructing = False
 
     def _add(self, maker: Maker) -> Node:
@@ -420,11 +420,11 @@ class _Run:
         """Add the learner's node; of an instance, its class is used."""
         make = type(answer.make) if isinstance(answer.make, Node) else answer.make
         if isclass(make):  # a function may be a program's main, which calls both
-            self._world.explain_init = _refuse_init  # type: ignore[method-assign]  # this world only
-            self._world.explain_shutdown = self._shut_down  # type: ignore[method-assign]  # the same
+            self._core.explain_init = _refuse_init  # type: ignore[method-assign]  # this session only
+            self._core.explain_shutdown = self._shut_down  # type: ignore[method-assign]  # the same
         node = self._add(replace(answer, make=make))
-        self._steps.subject = self._world.name_of(node) or ""
-        state = self._world.state_of(node)
+        self._steps.subject = self._core.name_of(node) or ""
+        state = self._core.state_of(node)
         if self._ended_early and state is not None:
             state.spinning, state.ended = False, True
             state.process.refresh()
@@ -434,7 +434,7 @@ class _Run:
         if self._constructing:
             self._ended_early = True
         else:
-            type(self._world).explain_shutdown(self._world)
+            type(self._core).explain_shutdown(self._core)
 
     def add_system(self, answer: Maker) -> None:
         """Add the nodes of a learner's system; one that cannot be made is left out."""
@@ -456,7 +456,7 @@ class _Run:
 
     def _note_waiting(self) -> None:
         """Note the first callback that has waited for long when the run is over."""
-        for call in self._world.virtual.suspended:
+        for call in self._core.virtual.suspended:
             wait = call.wait
             is_long = call.began_ns <= self._end / 2
             if wait and not call.spinning and (is_long or (wait.until_ns or 0) >= 2 * self._end):
@@ -467,11 +467,11 @@ class _Run:
     def _late_fault(self, node: str, callback: str, reason: str, frame: FrameType | None) -> Fault:
         doing = {"sleep": "asleep", "spin": "spinning"}.get(reason, f"waiting for {reason}")
         text = f"still {doing} after {self._end / NANOSECONDS:g} s"
-        return Fault(self._world.now(), node, callback, "DeadlinePassed", text, *line_of(frame))
+        return Fault(self._core.now(), node, callback, "DeadlinePassed", text, *line_of(frame))
 
     def _callback(self) -> tuple[str, str]:
         """Return the node and the callback that is running."""
-        calling = self._world.virtual.calling
+        calling = self._core.virtual.calling
         if self._constructing:
             return "", "__init__"
         return ("", "run") if calling is None else (calling.node, calling.name)
@@ -479,7 +479,7 @@ class _Run:
     def _is_new(self) -> bool:
         """Return whether a callback has begun lately, so that none is endless."""
         # An endless call has had all of the time for itself, unless the run had none left.
-        return time.monotonic() - self._world.recorder.began < self._deadline.seconds / 2
+        return time.monotonic() - self._core.recorder.began < self._deadline.seconds / 2
 
     def _gets_on(self) -> bool:
         """Return whether callbacks come to an end, and do not make things anew."""
@@ -489,10 +489,10 @@ class _Run:
         self._is_slow = self._is_new()
         self._took = time.monotonic() - self._began
         # Not `len`: the code that is running may have replaced it.
-        self._expired = self._callback(), self._world.recorder.faults.__len__()
+        self._expired = self._callback(), self._core.recorder.faults.__len__()
 
     def _fault_of(self, error: BaseException) -> Fault:
-        now, cause = self._world.now(), error.__cause__
+        now, cause = self._core.now(), error.__cause__
         if isinstance(error, NodeConstructionError) and cause is not None:
             return fault_of(cause, now, "", "__init__")
         if isinstance(error, RosbeatError):
@@ -504,7 +504,7 @@ class _Run:
 
     def observation(self, printed: int) -> Observation:
         """Return what happened; the learner's code printed so many characters."""
-        recorder, deadline = self._world.recorder, self._deadline
+        recorder, deadline = self._core.recorder, self._deadline
         faults = [*recorder.faults, *self._faults, *filter(None, [self._late])]
         if deadline.passed:
             callback, known = self._expired
@@ -512,16 +512,16 @@ class _Run:
             with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
                 slow = f"{recorder.calls()} calls of callbacks took {self._took:.0f} s"
                 text = self._made_anew(*callback) or (slow if self._is_slow else text)
-            now = self._world.now()
+            now = self._core.now()
             # What was raised after the deadline was raised because of it.
             faults[known:] = [Fault(now, *callback, "DeadlinePassed", text, *deadline.place)]
         most = MOST_OF_BROKEN_OFF if deadline.passed or self._late else MOST_RECORDS
         callbacks = [*islice(recorder.callbacks(), most), *self._steps.records]
         graph = GraphSnapshot()
         with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
-            graph = self._world.graph()
+            graph = self._core.graph()
         return Observation(
-            self._world.now(),
+            self._core.now(),
             self._seed,
             tuple(islice(recorder.samples(), most)),
             tuple(recorder.logs[:most]),
@@ -531,14 +531,14 @@ class _Run:
             self._steps.subject,
             printed,
             tuple(self._steps.replies),
-            self._world.virtual.all_waits()[:most],
+            self._core.virtual.all_waits()[:most],
         )
 
     def _made_anew(self, node: str, callback: str) -> str:
         """Return what a callback has made call after call, until all was slow; or an empty text."""
-        calls = [one for one in self._world.recorder.callbacks()
+        calls = [one for one in self._core.recorder.callbacks()
                  if (one.node, one.name) == (node, callback)]  # fmt: skip
-        state = self._world.named(node)
+        state = self._core.named(node)
         if state is None or len(calls) < _MANY:  # else it has made them in one call
             return ""
         made = Counter(f"publishers on {one.topic_name}" for one in state.node.publishers)
@@ -553,7 +553,7 @@ class _Run:
         with Deadline(_TO_TIDY):
             run_in_generator(self._destroy_nodes)
         self._session.close()
-        del self._session, self._world, self._steps
+        del self._session, self._core, self._steps
         # What a class does in `__del__` happens here, where it has a deadline, and not later. On
         # a busy machine another thread may still hold such a node for a moment.
         end = time.monotonic() + _TO_TIDY
@@ -563,7 +563,7 @@ class _Run:
 
     def _destroy_nodes(self) -> None:
         # Not in `close`, whose variables would keep a node from being collected.
-        self._world.interrupt()
+        self._core.interrupt()
         for node in reversed(self._session.nodes):
             with suppress(Exception):
                 Node.destroy_node(node)  # and not what its class makes of that

@@ -29,8 +29,8 @@ from rosbeat.ros.errors import (
 from rosbeat.ros.graph import poll, wait_for_nodes
 from rosbeat.ros.launch import Launch, Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
+from rosbeat.ros.session_core import SessionCore, find, state_of
 from rosbeat.ros.simulated_program import SimulatedProgram
-from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self, Unpack
@@ -54,9 +54,9 @@ class Session:
         if domain_id is not None:
             check_whole("domain_id", domain_id, 0, LAST_DOMAIN)
         self._seed = seed
-        self._world = World(seed, domain_id)
+        self._core = SessionCore(seed, domain_id)
         # Also runs at interpreter exit, before the middleware is torn down.
-        self._finalizer = finalize(self, self._world.close)
+        self._finalizer = finalize(self, self._core.close)
 
     def __enter__(self) -> Self:
         return self
@@ -65,9 +65,9 @@ class Session:
         self.close()
 
     def __repr__(self) -> str:
-        if self._world.closed:
+        if self._core.closed:
             return "Session(closed)"
-        names = ", ".join(state.name for state in self._world.states()) or "no nodes"
+        names = ", ".join(state.name for state in self._core.states()) or "no nodes"
         mode = "live" if self.is_live else "virtual time"
         return f"Session({mode}, {self.time:g} s, {names})"
 
@@ -76,22 +76,22 @@ class Session:
     @property
     def time(self) -> float:
         """Return the seconds since the session began; live time counts as it passes."""
-        return self._world.now() / 1e9
+        return self._core.now() / 1e9
 
     @property
     def domain_id(self) -> int | None:
         """Return the ROS domain that the session has joined; None if it is private."""
-        return self._world.domain_id
+        return self._core.domain_id
 
     @property
     def is_live(self) -> bool:
         """Return whether the nodes run against the wall clock now."""
-        return self._world.live is not None
+        return self._core.live is not None
 
     @property
     def nodes(self) -> tuple[Node, ...]:
         """Return the nodes of this session, in order of creation."""
-        return tuple(state.node for state in self._world.states())
+        return tuple(state.node for state in self._core.states())
 
     # Nodes.
 
@@ -168,15 +168,15 @@ class Session:
                 "Pass the class, without parentheses, so that the session creates the node.",
             )
         process = Process(threads)
-        made = build_in(self._world, given, start, process)
-        states = [state_of(self._world, node) for node in made]
+        made = build_in(self._core, given, start, process)
+        states = [state_of(self._core, node) for node in made]
         for state in states:
             process.adopt(state)
         for state in states:
-            self._world.spin_node(state)
+            self._core.spin_node(state)
         for maker, node in zip(given, made, strict=True):
             if node is not maker:
-                self._world.makers[node] = Maker(maker, start)
+                self._core.makers[node] = Maker(maker, start)
         return made
 
     @called_as('ros.spawn("sensor.py")')
@@ -203,7 +203,7 @@ class Session:
         with self._running("spawn", [program]):
             if self.is_live:
                 raise session_is_live("spawn")
-            made = SimulatedProgram(self._world, program, arguments)
+            made = SimulatedProgram(self._core, program, arguments)
             made.start()
         return made
 
@@ -215,7 +215,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._world.destroy(find(self._world, node))
+        self._core.destroy(find(self._core, node))
 
     @called_as('ros.pause("sensor")')
     def pause(self, node: Node | str) -> None:
@@ -227,7 +227,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._world.pause(node)
+        self._core.pause(node)
 
     @called_as('ros.resume("sensor")')
     def resume(self, node: Node | str) -> None:
@@ -239,7 +239,7 @@ class Session:
             SessionError: If the session has no such node, or it ended with an exception.
         """
         self._check_open()
-        self._world.resume(node)
+        self._core.resume(node)
 
     # Time.
 
@@ -263,16 +263,16 @@ class Session:
         with self._running("run"):
             if self.is_live:
                 raise session_is_live()
-            self._world.console.begin(quiet)
+            self._core.console.begin(quiet)
             try:
-                self._world.virtual.run_until(self._world.now() + span)
+                self._core.virtual.run_until(self._core.now() + span)
             except KeyboardInterrupt as interrupt:
-                ended = self._world.break_endless_off(interrupt)
+                ended = self._core.break_endless_off(interrupt)
                 usual = f"stopped at {self.time:g} s; the session is still open."
                 show_briefly(interrupt, ended or usual)
                 raise
             finally:
-                self._world.console.end()
+                self._core.console.end()
 
     @called_as("ros.start()")
     def start(self) -> None:
@@ -288,7 +288,7 @@ class Session:
         """
         self._check_call("start")
         if not self.is_live:
-            self._world.go_live()
+            self._core.go_live()
 
     @called_as("ros.wait(seconds=5)")
     def wait(
@@ -315,19 +315,19 @@ class Session:
             deadline = time.monotonic() + duration_ns(seconds, "wait(seconds=...)") / 1e9
 
         def is_done() -> object:
-            self._world.show_news()
+            self._core.show_news()
             return until is not None and until()
 
-        self._world.console.begin()
+        self._core.console.begin()
         try:
             return poll(is_done, deadline)
         except KeyboardInterrupt as interrupt:
             show_briefly(interrupt, "you stopped waiting; the session is still live.")
-            self._world.interrupt()
+            self._core.interrupt()
             raise
         finally:
-            self._world.show_news()
-            self._world.console.end()
+            self._core.show_news()
+            self._core.console.end()
 
     @called_as('ros.wait_for_nodes("sensor")')
     def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
@@ -347,7 +347,7 @@ class Session:
         self._check_call("wait_for_nodes")
         wanted = ["/" + check_name("wait_for_nodes", name).lstrip("/") for name in names]
         seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
-        wait_for_nodes(self._world, wanted, seconds)
+        wait_for_nodes(self._core, wanted, seconds)
 
     @called_as("ros.stop()")
     def stop(self) -> None:
@@ -360,8 +360,8 @@ class Session:
             SessionError: If `stop` is called from a callback.
         """
         self._check_call("stop")
-        self._world.go_virtual()
-        self._world.show_news()
+        self._core.go_virtual()
+        self._core.show_news()
 
     @called_as("ros.close()")
     def close(self) -> None:
@@ -384,13 +384,13 @@ class Session:
             UnknownTopicError: If the topic never had a publisher in this session.
             SessionError: If `topic` is not a name.
         """
-        self._world.show_faults()
+        self._core.show_faults()
         name = "/" + check_name("messages", topic).lstrip("/")
-        outside = self._world.external_messages
-        known = self._world.recorder.topics().union(outside.topics() if outside else ())
+        outside = self._core.external_messages
+        known = self._core.recorder.topics().union(outside.topics() if outside else ())
         if name not in known:
-            raise unknown_topic(name, known, self._world.graph())
-        return tuple(self._world.recorder.samples(name))
+            raise unknown_topic(name, known, self._core.graph())
+        return tuple(self._core.recorder.samples(name))
 
     @called_as('ros.logs("sensor")')
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
@@ -402,11 +402,11 @@ class Session:
         Raises:
             SessionError: If `node` is neither a name nor a node that is or was in this session.
         """
-        self._world.show_faults()
-        records = tuple(self._world.recorder.logs)
+        self._core.show_faults()
+        records = tuple(self._core.recorder.logs)
         if node is None:
             return records
-        name = self._world.name_of(node) if isinstance(node, Node) else check_name("logs", node)
+        name = self._core.name_of(node) if isinstance(node, Node) else check_name("logs", node)
         if name is None:
             raise foreign_node(cast(Node, node))
         wanted = name.strip("/").replace("/", ".")
@@ -419,8 +419,8 @@ class Session:
         In a domain that was joined with `domain_id`, the nodes of other processes are included as
         far as they are known yet; see `wait_for_nodes`.
         """
-        self._world.show_faults()
-        return self._world.graph()
+        self._core.show_faults()
+        return self._core.graph()
 
     @called_as("ros.observation()")
     def observation(self) -> Observation:
@@ -428,17 +428,17 @@ class Session:
 
         Of a session that has ended it holds the graph as it was just before the end.
         """
-        self._world.show_faults()
-        recorder = self._world.recorder
+        self._core.show_faults()
+        recorder = self._core.recorder
         return Observation(
-            self._world.now(),
+            self._core.now(),
             self._seed,
             tuple(recorder.samples()),
             tuple(recorder.logs),
             tuple(recorder.callbacks()),
             tuple(recorder.faults),
-            self._world.graph(),
-            waits=self._world.virtual.all_waits(),
+            self._core.graph(),
+            waits=self._core.virtual.all_waits(),
         )
 
     # How it works.
@@ -447,15 +447,15 @@ class Session:
     def _running(self, what: str, code: Iterable[object] = ()) -> Iterator[None]:
         """Let nodes of this session run in this thread, and classes that make some."""
         self._check_call(what)
-        with self._world.running(code):
+        with self._core.running(code):
             yield
 
     def _check_call(self, what: str) -> None:
         """Refuse a call that runs nodes, in a callback and after the end of the session."""
         self._check_open()
-        self._world.refuse_in_callback(f"ros.{what}")
+        self._core.refuse_in_callback(f"ros.{what}")
 
     def _check_open(self) -> None:
-        if self._world.closed:
+        if self._core.closed:
             raise session_has_ended()
-        self._world.show_faults()
+        self._core.show_faults()

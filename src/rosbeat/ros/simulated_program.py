@@ -37,7 +37,7 @@ from rosbeat.ros.exception_origin import error_text, fault_of
 from rosbeat.ros.processes import Call, Process
 
 if TYPE_CHECKING:
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 _OWN = str(Path(__file__).parents[1])
 _KNOWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
@@ -49,7 +49,7 @@ class SimulatedProgram:
     Its methods are those of `subprocess.Popen`, as far as they make sense in virtual time.
 
     Args:
-        world: The session's world.
+        core: The state of the session.
         target: A file with a function `main`, or such a function.
         arguments: Command-line arguments after the program's name.
 
@@ -64,12 +64,12 @@ class SimulatedProgram:
         SessionError: If `target` is neither a file nor a function.
     """
 
-    def __init__(self, world: World, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
+    def __init__(self, core: SessionCore, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
         self._target = _checked(target)
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None
         self.stderr = ""
-        self._world = world
+        self._core = core
         self._process = Process(program=self)
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
@@ -115,15 +115,15 @@ class SimulatedProgram:
                 "A session simulates Ctrl+C, the system's request to terminate, and `kill -9`.",
                 "Use `signal.SIGINT`, `signal.SIGTERM` or `signal.SIGKILL`.",
             )
-        self._world.refuse_in_callback("send_signal")
+        self._core.refuse_in_callback("send_signal")
         if self.returncode is not None:
             return
         if number == signal.SIGKILL:
             self._end(-number)
             return
-        with self._world.running():
+        with self._core.running():
             self._deliver(signal.Signals(number))
-            self._world.virtual.run_until(self._world.virtual.now)
+            self._core.virtual.run_until(self._core.virtual.now)
 
     def terminate(self) -> None:
         """Send SIGTERM."""
@@ -138,7 +138,7 @@ class SimulatedProgram:
 
     def start(self) -> None:
         """Run it until it waits for the first time."""
-        virtual = self._world.virtual
+        virtual = self._core.virtual
         virtual.start_main(self._run, self._process)
         virtual.run_until(virtual.now)
 
@@ -168,7 +168,7 @@ class SimulatedProgram:
         """Let a `spin` of the program return: its context was shut down."""
         main = self._main
         if main is not None and main.spinning and self._is_idle():
-            self._world.virtual.end_wait(main)
+            self._core.virtual.end_wait(main)
 
     def install_handlers(self) -> None:
         """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
@@ -177,7 +177,7 @@ class SimulatedProgram:
     def fail(self, error: SessionError) -> None:
         """End the program with an error, from a thread of its own, as soon as `main` waits."""
         self._failure = error
-        self._world.virtual.elsewhere.append(lambda: self._raise(error))
+        self._core.virtual.elsewhere.append(lambda: self._raise(error))
 
     def callback_ended(self) -> None:
         """Let `spin` return if the context was shut down meanwhile."""
@@ -187,10 +187,10 @@ class SimulatedProgram:
     # How it works.
 
     def _new_context(self) -> ProgramContext:
-        return ProgramContext(self._world, self)
+        return ProgramContext(self._core, self)
 
     def _run(self) -> None:
-        self._main = self._world.virtual.current
+        self._main = self._core.virtual.current
         error: BaseException | None = None
         self.enter()
         try:
@@ -273,7 +273,7 @@ class SimulatedProgram:
         single = self._process.threads == 1
         where = calls[-1] if single and calls else self._main
         if where is not None:
-            self._world.virtual.end_wait(where, error)
+            self._core.virtual.end_wait(where, error)
 
     def _external_shutdown(self) -> None:
         """End a `spin` that waits, as rclpy does when a context is shut down from outside."""
@@ -281,11 +281,11 @@ class SimulatedProgram:
         if main is None or not main.spinning or not self._is_idle():
             return  # it sees for itself when it looks next
         alone = self._process.threads == 1
-        self._world.virtual.end_wait(main, ExternalShutdownException() if alone else None)
+        self._core.virtual.end_wait(main, ExternalShutdownException() if alone else None)
 
     def _is_idle(self) -> bool:
         """Return whether no callback of the program has begun and not returned."""
-        running = self._world.virtual.current
+        running = self._core.virtual.current
         calls = [*self._process.calls, *([running] if running is not None else [])]
         return all(call.spinning or call.process is not self._process for call in calls)
 
@@ -299,7 +299,7 @@ class SimulatedProgram:
         elif error is not None:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
-            self._world.add_fault(fault_of(error, self._world.now(), self.name, "main"))
+            self._core.add_fault(fault_of(error, self._core.now(), self.name, "main"))
         if self.stderr:
             print(self.stderr, end="", file=sys.stderr)
         self._end(code)
@@ -307,12 +307,12 @@ class SimulatedProgram:
     def _end(self, code: int) -> None:
         """End the process: its callbacks, its nodes and its context."""
         self.returncode = code
-        virtual = self._world.virtual
+        virtual = self._core.virtual
         for call in list(self._process.calls):
             if call is not virtual.current:
                 virtual.break_off(call)
         for state in list(self._process.states):
-            self._world.destroy(state)
+            self._core.destroy(state)
         if self._context is not None:
             Context.try_shutdown(self._context)
 

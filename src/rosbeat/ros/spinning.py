@@ -27,14 +27,14 @@ from rosbeat.errors import SessionError
 from rosbeat.ros.context import Interrupts, show_briefly
 from rosbeat.ros.errors import note
 from rosbeat.ros.processes import NodeState
-from rosbeat.ros.recording import watcher_of
+from rosbeat.ros.recording import core_of
 
 if TYPE_CHECKING:
     from rosbeat.ros.simulated_program import SimulatedProgram
 
-#: A `World`, or None. Its own type would ask everywhere whether a node is of a session and whether
-#: code of a node is running, which is known here.
-_World: TypeAlias = Any
+#: A `SessionCore`, or None. Its own type would ask everywhere whether a node is of a session and
+#: whether code of a node is running, which is known here.
+_Core: TypeAlias = Any
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
@@ -59,13 +59,13 @@ def install() -> None:
 def _spin(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(node: Node, executor: Executor | None = None) -> None:
-        world = _session_of(node)
-        if world is None:
+        core = _session_of(node)
+        if core is None:
             _spin_until_interrupt(node, executor or _executor_for(node))
-        elif _plays_program(world):
-            _play(world, executor, [world.state_of(node)])
+        elif _plays_program(core):
+            _play(core, executor, [core.state_of(node)])
         else:
-            _spin_in_session(world, node)
+            _spin_in_session(core, node)
 
     return spin
 
@@ -75,13 +75,13 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
     def spin_once(
         node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
     ) -> None:
-        world = _session_of(node)
-        if world is None:
+        core = _session_of(node)
+        if core is None:
             wait = PULSE if timeout_sec is None else timeout_sec
             original(node, executor=executor, timeout_sec=wait)
-        elif _is_simulated(world):
-            with _global_executor(world, node) as states:
-                world.virtual.spin(states, world.virtual.after(timeout_sec), most=1)
+        elif _is_simulated(core):
+            with _global_executor(core, node) as states:
+                core.virtual.spin(states, core.virtual.after(timeout_sec), most=1)
         else:
             raise SessionError(
                 "rclpy.spin_once was called for a node of a session.",
@@ -100,34 +100,34 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
         executor: Executor | None = None,
         timeout_sec: float | None = None,
     ) -> None:
-        world = _session_of(node)
-        if world is None:
+        core = _session_of(node)
+        if core is None:
             original(node, future, executor, timeout_sec)
-        elif _is_simulated(world):
-            with _global_executor(world, node) as states:
-                _play_until(world, states, future, timeout_sec)
+        elif _is_simulated(core):
+            with _global_executor(core, node) as states:
+                _play_until(core, states, future, timeout_sec)
         else:
-            world.refuse_in_callback("rclpy.spin_until_future_complete")
-            world.spin_node(world.state_of(node))
-            if world.live is not None:
-                world.live.wait_for(future, timeout_sec)
+            core.refuse_in_callback("rclpy.spin_until_future_complete")
+            core.spin_node(core.state_of(node))
+            if core.live is not None:
+                core.live.wait_for(future, timeout_sec)
             else:
-                world.wait_until(lambda: future.done() or future.cancelled(), timeout_sec)
+                core.wait_until(lambda: future.done() or future.cancelled(), timeout_sec)
 
     return spin_until_future_complete
 
 
-def _session_of(node: Node) -> _World:
+def _session_of(node: Node) -> _Core:
     """Return the session of a node, or None; refuse to spin a program's in another thread."""
-    world: _World = watcher_of(node)
-    state = world.state_of(node) if world is not None else None
-    _refuse_thread(world, state.process.program if state is not None else None)
-    return world
+    core: _Core = core_of(node)
+    state = core.state_of(node) if core is not None else None
+    _refuse_thread(core, state.process.program if state is not None else None)
+    return core
 
 
-def _refuse_thread(world: _World, program: SimulatedProgram | None) -> None:
+def _refuse_thread(core: _Core, program: SimulatedProgram | None) -> None:
     """End a program that spins in another thread than the session's, and that thread."""
-    if program is None or world.live is not None or threading.get_ident() == world.virtual.thread:
+    if program is None or core.live is not None or threading.get_ident() == core.virtual.thread:
         return
     try:
         raise SessionError(
@@ -148,11 +148,11 @@ def _refuse_thread(world: _World, program: SimulatedProgram | None) -> None:
 def _executor_spin(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(executor: Executor) -> None:
-        world = _world_of(executor)
-        if world is None:
+        core = _core_of(executor)
+        if core is None:
             original(executor)
         else:
-            _play(world, executor, _states(world, executor))
+            _play(core, executor, _states(core, executor))
 
     return spin
 
@@ -160,12 +160,12 @@ def _executor_spin(original: Callable[..., None]) -> Callable[..., None]:
 def _executor_once(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin_once(executor: Executor, timeout_sec: float | None = None) -> None:
-        world = _world_of(executor)
-        if world is None:
+        core = _core_of(executor)
+        if core is None:
             original(executor, timeout_sec)
             return
         nodes = executor.get_nodes()
-        world.virtual.spin(_states(world, executor), world.virtual.after(timeout_sec), most=1)
+        core.virtual.spin(_states(core, executor), core.virtual.after(timeout_sec), most=1)
         _give_back(nodes, executor)
 
     return spin_once
@@ -174,69 +174,69 @@ def _executor_once(original: Callable[..., None]) -> Callable[..., None]:
 def _executor_until(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(executor: Executor, future: Future, timeout_sec: float | None = None) -> None:
-        world = _world_of(executor)
-        if world is None:
+        core = _core_of(executor)
+        if core is None:
             original(executor, future, timeout_sec)
             return
         nodes = executor.get_nodes()
-        _play_until(world, _states(world, executor), future, timeout_sec)
+        _play_until(core, _states(core, executor), future, timeout_sec)
         _give_back(nodes, executor)
 
     return spin
 
 
-def _world_of(executor: Executor) -> _World:
+def _core_of(executor: Executor) -> _Core:
     """Return the session in whose code an executor spins, or None."""
-    world = getattr(executor.context, "watcher", None)
-    _refuse_thread(world, getattr(executor.context, "program", None))
-    return world if world is not None and _is_simulated(world) else None
+    core = getattr(executor.context, "core", None)
+    _refuse_thread(core, getattr(executor.context, "program", None))
+    return core if core is not None and _is_simulated(core) else None
 
 
-def _states(world: _World, executor: Executor) -> list[NodeState]:
-    found = [world.state_of(node) for node in executor.get_nodes()]
+def _states(core: _Core, executor: Executor) -> list[NodeState]:
+    found = [core.state_of(node) for node in executor.get_nodes()]
     return sorted((one for one in found if one is not None), key=lambda one: one.number)
 
 
 def _give_back(nodes: list[Node], executor: Executor) -> None:
     """Let nodes be a program's executor's again; while they spun they were the session's."""
     for node in nodes:
-        if node.executor is not executor and watcher_of(node) is not None:
+        if node.executor is not executor and core_of(node) is not None:
             node.executor = executor
 
 
 # In virtual time.
 
 
-def _is_simulated(world: _World) -> bool:
-    return world.live is None and bool(world.virtual.in_callback)
+def _is_simulated(core: _Core) -> bool:
+    return core.live is None and bool(core.virtual.in_callback)
 
 
-def _plays_program(world: _World) -> bool:
-    return _is_simulated(world) and world.virtual.current.process.program is not None
+def _plays_program(core: _Core) -> bool:
+    return _is_simulated(core) and core.virtual.current.process.program is not None
 
 
-def _play(world: _World, executor: Executor | None, states: list[NodeState]) -> None:
+def _play(core: _Core, executor: Executor | None, states: list[NodeState]) -> None:
     """Spin until the program's context is shut down, as `spin` of a process does."""
-    process = world.virtual.current.process
+    process = core.virtual.current.process
     before = process.threads
     if isinstance(executor, MultiThreadedExecutor):
         # Its number of threads has no public name.
         process.threads = executor._executor._max_workers
     try:
         if not rclpy.ok():  # at once, and yet a loop around it must not keep Interrupt away
-            world.virtual.block("spin", world.virtual.now)
+            core.virtual.block("spin", core.virtual.now)
         while rclpy.ok():
-            world.virtual.spin(states)
+            core.virtual.spin(states)
     finally:
         process.threads = before
 
 
 def _play_until(
-    world: _World, states: list[NodeState], future: Future, timeout_sec: float | None
+    core: _Core, states: list[NodeState], future: Future, timeout_sec: float | None
 ) -> None:
-    until = world.virtual.after(timeout_sec)
+    until = core.virtual.after(timeout_sec)
     client = next((one for state in states for one in _clients(state) if _asked(one, future)), None)
-    world.virtual.spin(states, until, lambda: future.done() or future.cancelled(), needs=client)
+    core.virtual.spin(states, until, lambda: future.done() or future.cancelled(), needs=client)
 
 
 def _clients(state: NodeState) -> list[Any]:
@@ -249,19 +249,19 @@ def _asked(client: Client, future: Future) -> bool:
 
 
 @contextmanager
-def _global_executor(world: _World, node: Node) -> Iterator[list[NodeState]]:
+def _global_executor(core: _Core, node: Node) -> Iterator[list[NodeState]]:
     """Give the nodes that the global executor of a process has, with one that is added to it.
 
     A node that another executor spins is taken away from that one, and at the end nobody spins it
     (rclpy, `Node.executor` and `spin_once`).
     """
-    state, process = world.state_of(node), world.virtual.current.process
+    state, process = core.state_of(node), core.virtual.current.process
     has_own = process.program is None and (len(process.states) > 1 or process.threads > 1)
     others = [] if has_own else [one for one in process.states if one.spinning and one is not state]
     taken_away = has_own and state.spinning
     yield [state, *others]
     if taken_away:
-        world.pause_node(state)
+        core.pause_node(state)
         note(
             f"a spin function of rclpy has removed {state.name} from the executor of its "
             "process, so its callbacks no longer run."
@@ -290,31 +290,31 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
         executor.remove_node(node)
 
 
-def _spin_in_session(world: _World, node: Node) -> None:
+def _spin_in_session(core: _Core, node: Node) -> None:
     """Run the session's nodes against the wall clock until Interrupt."""
-    world.refuse_in_callback("rclpy.spin")
+    core.refuse_in_callback("rclpy.spin")
     _refuse_in_constructor(node)
-    state = world.state_of(node)
-    world.spin_node(state)
-    was_live = world.live is not None
+    state = core.state_of(node)
+    core.spin_node(state)
+    was_live = core.live is not None
     if not was_live:
-        world.go_live()
+        core.go_live()
     note(f"{state.name} spins in real time until you interrupt the cell.")
     pulse = threading.Event()  # nobody sets it: it is a sleep that Interrupt ends at once
     try:
         with Interrupts() as interrupts:  # printing may swallow the exception
-            while world.live is not None and not state.ended:
+            while core.live is not None and not state.ended:
                 interrupts.raise_if_pressed()
-                world.show_news()
+                core.show_news()
                 pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, f"{state.name} has stopped spinning; the session is still open.")
-        world.interrupt()
+        core.interrupt()
         raise
     finally:
         if not was_live:
-            world.go_virtual()
-        world.show_news()
+            core.go_virtual()
+        core.show_news()
 
 
 def _refuse_in_constructor(node: Node) -> None:

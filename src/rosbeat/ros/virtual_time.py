@@ -43,7 +43,7 @@ from rosbeat.ros.recording import CallbackLabel, Recorder
 from rosbeat.ros.wait_set import NOT_OF_CALLBACKS, Coroutines, Waiting, WaitSetExecutor
 
 if TYPE_CHECKING:
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 
 class Agenda:
@@ -237,7 +237,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         thread: The thread in which the nodes run.
     """
 
-    def __init__(self, context: Context, recorder: Recorder, host: World) -> None:
+    def __init__(self, context: Context, recorder: Recorder, core: SessionCore) -> None:
         self.now = 0
         self.is_live = False
         self.running = False
@@ -250,7 +250,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._waits: list[WaitRecord] = []
         self._suspended: dict[Call, None] = {}
         self.constructor_waits: Callable[[int, str], None] | None = None
-        self._host = host
+        self._core = core
         self._note_callback = recorder.add_callback
         self._label = recorder.label
         self._agenda = Agenda()
@@ -376,7 +376,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def look_anew(self) -> None:
         """Look at everything again: the clock was changed from outside, or a run was broken off."""
-        states = self._host.states()
+        states = self._core.states()
         self._ready.clear()
         self._due.clear()
         self._behind.clear()
@@ -481,7 +481,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._suspend(call, wait, spinning)
         try:
             if not (wait.can_end() or self.elsewhere):
-                self._host.deadlocked([wait])
+                self._core.deadlocked([wait])
             self._next_driver().switch()
         finally:
             self._unsuspend(call, wait)
@@ -512,7 +512,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         call.process.spins.append(spin)
         try:
             for state in begun:
-                self._host.spin_node(state)
+                self._core.spin_node(state)
             call.process.refresh()
             self._catch_up(call.process)
             over = met if most is None else lambda: spin.left == 0 or (met is not None and met())
@@ -521,7 +521,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             call.process.spins.remove(spin)
             for state in begun:
                 if not state.ended:
-                    self._host.pause_node(state)
+                    self._core.pause_node(state)
             call.process.refresh()
 
     def end_wait(self, call: Call, error: BaseException | None = None) -> None:
@@ -541,7 +541,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if wait is not None and not wait.over and wait.thread is not getcurrent():
             before = self.current, self.calling
             wait.over = True
-            with self._host.running():  # its `finally` blocks may sleep, too
+            with self._core.running():  # its `finally` blocks may sleep, too
                 _throw(wait.thread, GreenletExit())
             self.current, self.calling = before
         self._forget_call(call)
@@ -722,7 +722,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """Report a deadlock for all who wait without a limit, since nothing will ever happen."""
         stuck = [wait for wait in self._looking if wait.is_for_good() and not wait.reported]
         if stuck:
-            self._host.deadlocked(stuck)
+            self._core.deadlocked(stuck)
         if not self._ends_idle:
             self._advance(max(self._end, self.now))
         return False
@@ -950,7 +950,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if spinner is not None:
             self.end_wait(spinner, error)
         else:
-            self._host.callback_raised(call.state, name, error)
+            self._core.callback_raised(call.state, name, error)
 
     def _begin(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> None:
         waiting = self._coroutines.adopt(coroutine, entry)
@@ -1001,7 +1001,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _turns_without_end(self) -> EndlessChainError:
         names = [f"{w.state.name} ({w.name})" for w in self._coroutines.waiting if w.state]
-        names = list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]
+        names = list(dict.fromkeys(names)) or [s.name for s in self._core.states() if s.spinning]
         return EndlessChainError(
             f"Callbacks wait for each other endlessly: {', '.join(names)}.",
             "Each callback continues whenever another one has run, so virtual time cannot advance.",

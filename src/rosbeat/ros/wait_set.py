@@ -31,7 +31,7 @@ from rosbeat.ros.qos_events import event_name, topic_of
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity
-    from rosbeat.ros.world import World
+    from rosbeat.ros.session_core import SessionCore
 
 # Callbacks that wait by themselves: `async def` callbacks and tasks.
 
@@ -162,7 +162,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
     """
 
     current: Any
-    _host: World
+    _core: SessionCore
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         self._changed = True
@@ -181,7 +181,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
         """
         return [
             state.node
-            for state in self._host.states()
+            for state in self._core.states()
             if state.spinning and state.process.has_thread()
         ]
 
@@ -216,11 +216,11 @@ class WaitSetExecutor(SingleThreadedExecutor):
         self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
 
     def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
-        self._host.callback_ran(entity, node)
+        self._core.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 
     def _handle(self, handler: Task, entity: Entity, node: Node) -> None:
-        state = self._host.state_of(node)
+        state = self._core.state_of(node)
         if state is None:
             return
         call = self.current = Call(state.process, state)
@@ -251,7 +251,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
         if not self._changed:
             return [node for node in self._wait_set_nodes if node in nodes]
         self._changed = False
-        self._wait_set_nodes = list(_with_waitables(self._host.states()))
+        self._wait_set_nodes = list(_with_waitables(self._core.states()))
         return nodes
 
 

@@ -74,7 +74,7 @@ from rosbeat.ros.wait_set import waitable_label, waitable_name
 _ENDLESS = 1.0
 
 
-class World:
+class SessionCore:
     """Hold the internal state of a `Session`.
 
     The hooks of `recording` and `actions` notify it of new nodes and entities, and the executors
@@ -739,22 +739,22 @@ class World:
 # Checks of what a caller names.
 
 
-def state_of(world: World, node: Node) -> NodeState:
+def state_of(core: SessionCore, node: Node) -> NodeState:
     """Return what is known of a node; raise a NodeClassError if it is not of this session."""
-    state = world.state_of(node)
+    state = core.state_of(node)
     if state is None:
-        raise foreign_node(node, world.name_of(node))
+        raise foreign_node(node, core.name_of(node))
     return state
 
 
-def find(world: World, node: Node | str) -> NodeState:
+def find(core: SessionCore, node: Node | str) -> NodeState:
     """Return a node, given itself or by name; raise a SessionError if there is no such node."""
     if isinstance(node, Node):
-        return state_of(world, node)
+        return state_of(core, node)
     name = "/" + str(node).lstrip("/")
-    state = world.named(name)
+    state = core.named(name)
     if state is None:
-        raise no_such_node(name, [other.name for other in world.states()])
+        raise no_such_node(name, [other.name for other in core.states()])
     return state
 
 
