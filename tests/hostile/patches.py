@@ -136,13 +136,13 @@ DEEDS = (
     Deed("the clock, moved", within("self.get_clock().advance(10**9)", WRONG), words=""),
     Deed(
         "the recorder, by the node",
-        within("recorder = self.context.core.recorder\nrecorder.logs.clear()", WRONG),
+        within("recorder = self.context.session_core.recorder\nrecorder.logs.clear()", WRONG),
         words="readings",
     ),
     Deed(
         "log lines put into the recorder",
         within(
-            "core = self.context.core\n"
+            "core = self.context.session_core\n"
             "if len(core.recorder.logs) < 3:\n    core.recorder.faults.clear()",
             WRONG,
         ),
@@ -151,7 +151,7 @@ DEEDS = (
     Deed(
         "the recorder's columns",
         within(
-            "recorder = self.context.core.recorder\ntimes = recorder._sample_times\n"
+            "recorder = self.context.session_core.recorder\ntimes = recorder._sample_times\n"
             "times[-1] = len(times) * 500_000_000",
             WRONG.replace("0.7", "0.4999"),
         ),

@@ -338,7 +338,7 @@ def test_an_ended_context_keeps_nothing_alive():
     with Session() as first:
         context = default()
         world = weakref.ref(first._core)
-    assert context.core is None
+    assert context.session_core is None
     context.init()
     context.shutdown()
     context.try_shutdown()

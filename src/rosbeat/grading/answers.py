@@ -407,7 +407,7 @@ _INNER_MODULES = frozenset(("ctypes", "_ctypes", "gc", "inspect", "tracemalloc",
 _INNER_NAMES = frozenset(
     (
         *("f_back", "f_globals", "f_locals", "f_code", "tb_frame", "gi_frame", "cr_frame"),
-        *("ag_frame", "_getframe", "_current_frames", "settrace", "setprofile", "watcher"),
+        *("ag_frame", "_getframe", "_current_frames", "settrace", "setprofile", "session_core"),
         *("recorder", "__globals__", "__code__", "__closure__", "__builtins__", "__subclasses__"),
         *("__kwdefaults__", "__defaults__"),
     )

@@ -78,13 +78,13 @@ class SessionContext(Context):
             of it can hear, whether in this process or in another.
 
     Attributes:
-        core: What is notified; None when the session has ended, so that the context keeps nothing
-            alive.
+        session_core: What is notified; None when the session has ended, so that the context keeps
+            nothing alive.
     """
 
     def __init__(self, core: SessionCore, domain_id: int | None) -> None:
         super().__init__()
-        self.core: SessionCore | None = core
+        self.session_core: SessionCore | None = core
         # Always an older one, so that these references never form a circle.
         self.previous: Context | None = rclpy.utilities.g_default_context
         self._is_private = domain_id is None
@@ -96,19 +96,19 @@ class SessionContext(Context):
 
     def init(self, args: Any = None, **_: Any) -> None:  # noqa: ANN401 - rclpy's own signature
         """Answer a learner's `rclpy.init()`: this context is running already."""
-        if self.core is not None:
-            self.core.explain_init()
+        if self.session_core is not None:
+            self.session_core.explain_init()
 
     def shutdown(self) -> None:
         """Answer a learner's `rclpy.shutdown()`: the session goes on."""
-        if self.core is not None:
+        if self.session_core is not None:
             self.install()  # rclpy.shutdown() has just forgotten the default context
-            self.core.explain_shutdown()
+            self.session_core.explain_shutdown()
 
     def try_shutdown(self) -> None:
         """Answer a learner's `rclpy.try_shutdown()`: the session goes on."""
-        if self.core is not None:
-            self.core.explain_shutdown()
+        if self.session_core is not None:
+            self.session_core.explain_shutdown()
 
     @contextmanager
     def making_node(self) -> Iterator[None]:
@@ -118,7 +118,7 @@ class SessionContext(Context):
 
     def end(self) -> None:
         """Shut the context down for real and hand the default back."""
-        self.core = None
+        self.session_core = None
         self.previous = _open_context(self.previous)
         if rclpy.utilities.g_default_context is self:
             self.uninstall(self.previous)
@@ -158,14 +158,14 @@ class ProgramContext(Context):
         program: The program, which is notified of a shutdown.
 
     Attributes:
-        core: The state of the session.
+        session_core: The state of the session.
         program: The program.
         home: The context in which nodes are created.
     """
 
     def __init__(self, core: SessionCore, program: SimulatedProgram) -> None:
         super().__init__()
-        self.core, self.program = core, program
+        self.session_core, self.program = core, program
         self.home: Context = core.context
 
     @property
@@ -186,7 +186,7 @@ class ProgramContext(Context):
 
 
 def _open_context(context: Context | None) -> Context | None:
-    while isinstance(context, SessionContext) and context.core is None:
+    while isinstance(context, SessionContext) and context.session_core is None:
         context = context.previous
     return context
 

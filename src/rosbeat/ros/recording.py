@@ -500,14 +500,14 @@ def core_of(node: Node) -> SessionCore | None:
     if isinstance(node, Unwatched):
         return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
-    return getattr(node.__dict__.get("_context"), "core", None)
+    return getattr(node.__dict__.get("_context"), "session_core", None)
 
 
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - passed on
         context: Any = kwargs.get("context") or get_default_context()
-        core = getattr(context, "core", None)
+        core = getattr(context, "session_core", None)
         name = kwargs.get("node_name", args[0] if args else None)
         with asking("Node.__init__", node, *args, **kwargs):
             if core is None or not isinstance(name, str) or isinstance(node, Unwatched):

@@ -187,7 +187,7 @@ def _executor_until(original: Callable[..., None]) -> Callable[..., None]:
 
 def _core_of(executor: Executor) -> _Core:
     """Return the session in whose code an executor spins, or None."""
-    core = getattr(executor.context, "core", None)
+    core = getattr(executor.context, "session_core", None)
     _refuse_thread(core, getattr(executor.context, "program", None))
     return core if core is not None and _is_simulated(core) else None
 

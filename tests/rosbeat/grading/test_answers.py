@@ -302,7 +302,7 @@ from std_msgs.msg import Float32
         ("import sys\nsys._getframe()", "line 2 uses _getframe"),
         ("f.__globals__", "line 1 uses __globals__"),
         ("getattr(x, '__globals__')", "line 1 uses __globals__"),
-        ("self.context.core", "line 1 uses watcher"),
+        ("self.context.session_core", "line 1 uses session_core"),
         ("rclpy.spin = print", "line 1 changes rclpy"),
         ("del rclpy.spin", "line 1 changes rclpy"),
         ("rclpy.x += 1", "line 1 changes rclpy"),
