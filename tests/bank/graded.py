@@ -27,6 +27,8 @@ _ABOVE = {
     "05a": "%%save src/sensor_simulator/setup.py\n",
     "05b": "%%save src/lamp_control/setup.py\n",
 }
+#: Exercises whose page is replayed in a terminal, with real builds.
+REPLAYED = frozenset(_ABOVE)
 
 
 @cache
@@ -86,9 +88,11 @@ def sample(most: int) -> tuple[Answer, ...]:
     """Return some answers of each exercise, right and wrong; always the same ones.
 
     Args:
-        most: How many there are of each status of an exercise, at most.
+        most: How many there are of each status of an exercise, at most. A replayed
+            exercise has so many in all.
     """
     found: dict[tuple[str, str], list[Answer]] = {}
     for one in sorted(usable(), key=lambda one: sha256(one.id.encode()).hexdigest()):
-        found.setdefault((one.exercise, one.status), []).append(one)
+        kind = "" if one.exercise in REPLAYED else one.status
+        found.setdefault((one.exercise, kind), []).append(one)
     return tuple(one for some in found.values() for one in some[:most])

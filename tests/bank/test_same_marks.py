@@ -8,7 +8,7 @@ import os
 
 import pytest
 
-from bank.graded import graded, handed_in, sample, usable
+from bank.graded import REPLAYED, graded, handed_in, sample, usable
 from bank.running import told
 
 #: Whether all answers are compared.
@@ -40,5 +40,7 @@ def test_no_answer_is_held_or_mended():
 
 def test_the_sample_is_fair():
     found = {(one.exercise, one.status) for one in sample(1)}
-    assert found == {(one.exercise, one.status) for one in usable()}
+    wanted = {(one.exercise, one.status) for one in usable()}
+    assert {one for one in wanted if one[0] not in REPLAYED} <= found <= wanted
+    assert {"passed", "failed"} <= {one.status for one in sample(1) if one.exercise in REPLAYED}
     assert {one.id for one in usable()} >= ALWAYS

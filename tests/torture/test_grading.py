@@ -23,7 +23,7 @@ from rosbeat.grading.ledger import FILE, SEED_FILE
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(600)]
 
-LEARNERS = 10
+LEARNERS = 6
 PAGE = "03"
 #: Files that have to be those of an undisturbed run.
 COMPARED = ("grades.csv", "results.json", "class.html")
@@ -151,7 +151,7 @@ def killed_in_turn(graded, out, kinds, random):
     process, done = graded.start(out), []
     try:
         for kind in kinds:
-            wanted = len(judged(out)) + random.randrange(1, 4)
+            wanted = len(judged(out)) + random.randrange(1, 3)
             while len(judged(out)) < wanted and process.poll() is None:
                 time.sleep(0.002)
             while not kill(process, kind, random):
