@@ -1,6 +1,9 @@
 """Messages to YAML and CSV, and from YAML."""
 
+from importlib import import_module
+
 import pytest
+import yaml
 
 pytest.importorskip("std_msgs.msg")
 
@@ -21,6 +24,7 @@ from std_msgs.msg import (
     String,
     UInt8,
 )
+from unique_identifier_msgs.msg import UUID
 
 JOINTS = """\
 header:
@@ -61,6 +65,29 @@ def test_long_arrays_are_cut():
     assert to_yaml(message, Style(limit=None)).endswith("- 3\n- 4\n")
     assert to_yaml(message, Style(flow=True)).endswith("data: [0, 1, 2, 3, 4]\n")
     assert to_csv(message, Style(limit=2)) == "0,0,1,..."
+
+
+def test_arrays_of_a_fixed_size():
+    message = PoseWithCovariance(covariance=[0.5] * 36)
+    assert to_yaml(message, Style()).endswith("covariance:\n" + "- 0.5\n" * 36)
+    cut = Style(limit=2, flow=True)
+    assert to_yaml(message, cut).endswith("covariance: [0.5, 0.5, '...']\n")
+    assert to_csv(message, Style()) == ",".join(["0.0"] * 6 + ["1.0"] + ["0.5"] * 36)
+    assert to_csv(message, Style(limit=2)).endswith("1.0,0.5,0.5,...")
+    assert to_yaml(UUID(uuid=range(16)), Style(limit=1)) == "uuid:\n- 0\n- '...'\n"
+
+
+@pytest.mark.parametrize("package", ["geometry_msgs", "sensor_msgs", "nav_msgs", "test_msgs"])
+def test_every_message_can_be_shown(package):
+    found = vars(import_module(f"{package}.msg")).values()
+    messages = [kind() for kind in found if hasattr(kind, "SLOT_TYPES")]
+    assert len(messages) > 4
+    for message in messages:
+        for style in (Style(), Style(limit=None), Style(no_arr=True), Style(flow=True, limit=1)):
+            assert set(yaml.safe_load(to_yaml(message, style))) == set(
+                message.get_fields_and_field_types()
+            )
+            to_csv(message, style)
 
 
 def test_arrays_and_texts_as_summaries():

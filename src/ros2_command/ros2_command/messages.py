@@ -60,7 +60,10 @@ def is_message_value(value: Untyped) -> bool:
 
 def is_array(value: Untyped) -> bool:
     """Return whether a value is a sequence of values, and not a text."""
-    return isinstance(value, list | tuple | array.array) or hasattr(value, "dtype")
+    if isinstance(value, list | tuple | array.array):
+        return True
+    # An array of a fixed size is one of NumPy's; its elements have a dtype, too, but no dimension.
+    return getattr(value, "ndim", 0) > 0
 
 
 def fields_of(message: Untyped) -> Iterable[tuple[str, Any, Any]]:

@@ -44,7 +44,7 @@ _LOOK = 20.0
 _AHEAD = 2
 
 
-class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]
+class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]  # Dask has no types
     """Keep prepared processes on one worker of Dask, one for each of its threads.
 
     Dask sets it up on every worker, on those too that join or are restarted later.

@@ -167,7 +167,7 @@ def _replayed(job: Job) -> Any:  # noqa: ANN401 - whatever a page hands over
     workspace = import_module("rosbeat.workspace")
     # The workspace is as the pages before leave it; what makes it is not in here, so no page is.
     os.environ.pop(PAGE, None)
-    workspace.catch_up = StandIn()  # type: ignore[attr-defined]
+    workspace.catch_up = StandIn()  # type: ignore[attr-defined]  # a module
     workspace.register(shell)
     run_imports(job.imports, shell.user_ns)
     for cell in job.replay:

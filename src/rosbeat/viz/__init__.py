@@ -12,9 +12,10 @@ first time (PEP 562).
 - `comparison` shows two runs over each other, and what only one of them has;
 - `diagram` shows where a page is going, and how folders, packages and programs belong together.
 
-There is one file for each kind of picture, with its words at the end. `theme` is the only place
-that names colours, `canvas` has what all pictures are made of, and `layout` places the boxes of
-a graph.
+There is one file for each kind of picture, with its words at the end; `plots` holds both that draw
+curves, `values` and `comparison`. `theme` is the only place that names colours, `canvas` has what
+all pictures are made of, and `layout` places the boxes of a graph. `arguments` checks what a
+learner hands over, `text_format` writes numbers and names, and `picture` is what comes out.
 
 - **Words first.** A picture's plain-text form is its description. Terminals print it, screen
   readers read it as the image's `alt`, and page tests compare it, since the bytes of an image

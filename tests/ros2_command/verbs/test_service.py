@@ -68,6 +68,17 @@ def test_echo(rich):
     assert "event_type: RESPONSE_SENT" in text
 
 
+def test_echo_shows_whole_arrays(rich):
+    with rich.running("service", "echo", "house/enable", "--flow-style") as process:
+        while rich.out("topic", "info", EVENTS).splitlines()[-1] != "Subscription count: 1":
+            pass
+        rich.out("service", "call", "/house/enable", "std_srvs/srv/SetBool", "{data: true}")
+        lines = [process.stdout.readline() for _ in range(8)]
+        interrupted(process)
+    assert re.fullmatch(r"  client_gid: \[\d+(, \d+){15}\]\n", lines[5])
+    assert lines[7] == "request: [{data: true}]\n"
+
+
 EVENTS = "/house/enable/_service_event"
 
 
