@@ -278,6 +278,18 @@ def unnamed_errors(sources):
     return said
 
 
+#: A comment that silences a checker, at the end of its line.
+BARE = re.compile(
+    r"#\s*(?:noqa(?::\s*[A-Z]+\d+(?:,\s*[A-Z]+\d+)*)?|type:\s*ignore(?:\[[\w, -]+\])?)\s*$"
+)
+
+
+def unexplained(sources):
+    """Lines on which a checker is silenced and nothing says why."""
+    return [f"{module}: {line.strip()}" for module, source in sources.items()
+            for line in source.splitlines() if BARE.search(line)]  # fmt: skip
+
+
 def machine_paths(texts):
     return [f"{name}: {line.strip()}" for name, text in texts.items()
             for line in text.splitlines() if MACHINE.search(line)]  # fmt: skip
@@ -303,7 +315,7 @@ def tracked():
 # The rules hold.
 
 RULES = [wrong_directions, unknown_rooms, rclpy_outside_ros, foreign_imports, cycles,
-         not_a_verb, unnamed_errors]  # fmt: skip
+         not_a_verb, unnamed_errors, unexplained]  # fmt: skip
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -349,6 +361,8 @@ BAD = {
     "workspace imports rclpy": (rclpy_outside_ros, "rosbeat.workspace.a", "import rclpy as r"),
     "records import numpy": (foreign_imports, "rosbeat.records", "import numpy"),
     "a noun phrase": (not_a_verb, "rosbeat.a", 'class A:\n """A bag of words."""'),
+    "no reason": (unexplained, "rosbeat.a", "import a  # noqa: F401"),
+    "no reason, types": (unexplained, "rosbeat.a", "a = b()  # type: ignore[misc, unused-ignore]"),
     "the third person": (not_a_verb, "rosbeat.a", 'class A:\n """Publishes a status."""'),
     "a name of a method": (not_a_verb, "rosbeat.a",
                            'class A:\n """Hold a."""\n def b(self):\n  """`f` of x."""'),

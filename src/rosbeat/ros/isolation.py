@@ -436,7 +436,7 @@ def _ipython() -> Any:  # noqa: ANN401 - its shell, whose `quit()` ends the kern
 
 
 #: The generator behind the functions of `random`: `random.uniform` is a method of it.
-_SHARED: random.Random = random.uniform.__self__  # type: ignore[attr-defined]
+_SHARED: random.Random = random.uniform.__self__  # type: ignore[attr-defined]  # a method
 #: The same function again, and not an equal one: nothing is different after a session.
 _PLAIN = random.random
 
