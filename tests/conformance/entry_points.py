@@ -41,6 +41,8 @@ _FRAME = re.compile(r'\s*File "(?P<file>[^"]*)", line (?P<line>\d+), in (?P<func
 #: How far the log lines of a program may lie apart, in seconds. Its first line is time zero on both
 #: sides, and its timers are made some hundredths of a second before or after that.
 LINES_APART = 0.2
+#: How long before a signal nothing happens, in seconds: which of two comes first is a race.
+QUIET = 0.06
 #: Programs that run at once, beside the cases; a start keeps a core busy for half a second.
 AT_ONCE = 3
 
@@ -303,13 +305,21 @@ def _race(outcome: Outcome) -> str:
     return ""
 
 
+def is_close(run: Run, outcome: Outcome) -> bool:
+    """Return whether a program logged a line just before it got its signal."""
+    if run.signal is None or run.beside:
+        return False
+    sent = run.at + outcome.late
+    return any(0 <= sent - line.time < QUIET for each in outcome.logs.values() for line in each)
+
+
 def measure_programs(
     runs: Sequence[Run], domains: Sequence[int], file: Path, deadline: float = 60.0
 ) -> dict[str, Outcome | str]:
     """Run programs as real processes, several at once.
 
-    What is measured anew, whatever came of it, is a program during which the machine stood still
-    or whose signal was sent late.
+    What is measured anew, whatever came of it, is a program during which the machine stood still,
+    or whose signal was sent late or just after a log line.
 
     Args:
         runs: The programs.
@@ -334,10 +344,10 @@ def measure_programs(
             finally:
                 free.put(domain)
             lag = max(watch.lag(began, time.monotonic()), outcome.late)
-            if lag <= LINES_APART / 3:
+            if lag <= LINES_APART / 3 and not is_close(run, outcome):
                 return outcome
             if time.monotonic() > give_up:
-                return f"the machine stood still for {lag:.3f} s"
+                return f"the machine stood still for {lag:.3f} s, or its start took long"
 
     with Watch(file) as watch, ThreadPoolExecutor(AT_ONCE) as pool:
         return dict(zip((run.name for run in runs), pool.map(measured, runs), strict=True))
