@@ -55,7 +55,7 @@ def test_a_cell_that_ends_the_kernel_or_never_ends_is_told(saved, capsys, monkey
     assert cli.main(["check", path]) == cli.FAILED
     said = capsys.readouterr().out
     assert said.count("not checked. A cell above has ended the kernel") == 3
-    monkeypatch.setattr(check_command, "SECONDS", 8.0)
+    monkeypatch.setattr(check_command, "SECONDS", 10.0)
     path = saved(a="import time\nwhile True:\n    time.sleep(1)", b=answer_to("03b"))
     assert cli.main(["check", path]) == cli.FAILED
     said = capsys.readouterr().out
