@@ -67,6 +67,11 @@ def test_classes_of_every_size(size):
     assert {tag for tag, _ in Parsed(page).elements} <= ELEMENTS
 
 
+def test_a_class_without_remarks_has_no_empty_list_of_files():
+    assert "<h2>Files</h2>" in class_report(ONE)
+    assert "<h2>Files</h2>" not in class_report(Gradebook("1", ()))
+
+
 def test_strange_texts_stay_text():
     page = class_report(Gradebook("<b>", tuple(hostile_learner(one) for one in HOSTILE)))
     require_harmless(page)
