@@ -79,7 +79,7 @@ def class_report(book: Gradebook) -> str:
             if mark.status == HELD
         ],
         learners=_learners(book),
-        files=list(_files(book)),
+        files=[(caption, head, rows) for caption, head, rows in _files(book) if rows],
     )
 
 
