@@ -140,11 +140,7 @@ def action_two_goals() -> list[Process]:
     return [Process((FibonacciClient,)), Process((Second,)), Process((Short,))]
 
 
-#: To write the traceback of an exception, a server loads modules; the goal is aborted after that.
-TRACEBACK = 0.3
-
-
-@case(2.4, tolerance=TRACEBACK)
+@case(2.4)
 def action_that_raises() -> list[Process]:
     """An exception in the work on a goal aborts it; the server goes on."""
 

@@ -347,7 +347,7 @@ def measure_programs(
             if lag <= LINES_APART / 3 and not is_close(run, outcome):
                 return outcome
             if time.monotonic() > give_up:
-                return f"the machine stood still for {lag:.3f} s, or its start took long"
+                return f"the machine stood still for {lag:.3f} s, or a line came with the signal"
 
     with Watch(file) as watch, ThreadPoolExecutor(AT_ONCE) as pool:
         return dict(zip((run.name for run in runs), pool.map(measured, runs), strict=True))
