@@ -48,6 +48,11 @@ class Session(session.Session):
         SessionError: If the seed or the domain id is not an integer in its range.
     """
 
+    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
+        super().__init__(seed=seed, domain_id=domain_id)
+        # A cell that is run again makes its node again, in the place of the old one.
+        self._core.replaces_nodes = True
+
     @called_as('ros.explain("temperature")')
     def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
         """Say why nothing arrives on a topic, or that all is well, with the rate.

@@ -10,6 +10,7 @@ exception in an execute callback is shown like any other.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from functools import partial, wraps
 from hashlib import sha256
 from inspect import signature
@@ -126,12 +127,29 @@ class ActionEnd:
         client = self.entity
         # All the random numbers of a client are drawn here; its calls that wait end in the others.
         self._chance = client._generate_random_uuid
+        for method in ("send_goal_async", "_cancel_goal_async", "_get_result_async"):
+            setattr(client, method, self._sending(getattr(client, method)))
         client._generate_random_uuid = self._next_id
-        client.send_goal = self._send_goal
-        client._get_result = lambda goal: self._result("get_result", client._get_result_async(goal))
-        client._cancel_goal = lambda g: self._result("cancel_goal", client._cancel_goal_async(g))
-        client.wait_for_server = self._wait_for_server
+        client.send_goal = partial(self._send_goal, client.send_goal)
+        client._get_result = partial(
+            self._ask, "get_result", client._get_result, client._get_result_async
+        )
+        client._cancel_goal = partial(
+            self._ask, "cancel_goal", client._cancel_goal, client._cancel_goal_async
+        )
+        client.wait_for_server = partial(self._wait_for_server, client.wait_for_server)
         client.execute = partial(self._hear, client.execute)
+
+    def _sending(self, send: Callable[..., Future]) -> Callable[..., Future]:
+        """Return a method that also lets executors look whether something has come."""
+
+        @wraps(send)
+        def sent(*given: Any, **options: Any) -> Future:  # noqa: ANN401 - rclpy's own
+            future = send(*given, **options)
+            self._core.virtual.hidden_event()
+            return future
+
+        return sent
 
     async def _hear(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
         # A status is stored for late-joining clients, to whom a thread sends it at no certain time.
@@ -146,14 +164,23 @@ class ActionEnd:
             return self._chance()
         return UUID(uuid=list(sha256(f"{self.name} {number}".encode()).digest()[:16]))
 
-    def _send_goal(self, goal: Any, **options: Any) -> Any:  # noqa: ANN401 - rclpy's own signature
+    def _send_goal(self, send: Callable[..., Any], goal: Any, **options: Any) -> Any:  # noqa: ANN401 - rclpy's own signature
+        if self._waits_by_itself():
+            with self._waiting():
+                return send(goal, **options)
         handle = self._result("send_goal", self.entity.send_goal_async(goal, **options))
         # The `_get_result` of `_prepare_client`, which `handle.get_result` calls.
         return None if handle is None else self.entity._get_result(handle)
 
+    def _waits_by_itself(self) -> bool:
+        """Return whether rclpy's own way waits in virtual time: in code of a node."""
+        return self._core.live is None and self._core.virtual.in_callback
+
+    def _waiting(self) -> AbstractContextManager[None]:
+        return self._core.waiting_for(f"a response from the action {self.name}", self.entity)
+
     def _result(self, method: str, future: Future) -> Message:
-        reason = f"a response from the action {self.name}"
-        if not self._core.wait(f"client.{method}", reason, future.done, None, self.entity):
+        if not self._core.wait(f"client.{method}", future.done, None):
             raise SessionError(
                 f"No action server has responded to {method} for the action {self.name}.",
                 "Either no node of this session offers that action, or its execute callback does "
@@ -162,11 +189,26 @@ class ActionEnd:
             )
         return future.result()
 
-    def _wait_for_server(self, timeout_sec: float | None = None) -> bool:
+    def _ask(
+        self,
+        method: str,
+        wait: Callable[..., Any],
+        send: Callable[..., Future],
+        goal: Any,  # noqa: ANN401 - rclpy's own
+    ) -> Message:
+        if self._waits_by_itself():
+            with self._waiting():
+                return wait(goal)
+        return self._result(method, send(goal))
+
+    def _wait_for_server(
+        self, wait: Callable[..., bool], timeout_sec: float | None = None
+    ) -> bool:
         client = self.entity
+        if self._waits_by_itself():
+            return bool(wait(timeout_sec))
         if not client.server_is_ready():
-            reason, done = f"a server of the action {self.name}", client.server_is_ready
-            self._core.wait("client.wait_for_server", reason, done, timeout_sec, None)
+            self._core.wait("client.wait_for_server", client.server_is_ready, timeout_sec)
         return bool(client.server_is_ready())
 
 
@@ -195,6 +237,7 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
             name = name.removesuffix(_SEND_GOAL)
             state.actions.append(ActionEnd(core, state, kind, entity, name, options.arguments))
             core.action_ends.add(entity)
+            core.virtual.hand_over(state.process)
 
     return init
 

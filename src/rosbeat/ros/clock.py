@@ -1,25 +1,42 @@
-"""Give nodes clocks that show the session's time, and let calls that wait take virtual time."""
+"""Give the code of nodes clocks that show the session's time, and calls that wait in it."""
 
 from __future__ import annotations
 
+import queue
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import wraps
 from operator import index
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
+import rclpy.clock
 from rclpy import wait_for_message as message_waiting
-from rclpy.clock import ClockType, ROSClock
+from rclpy.clock import Clock, ClockType, ROSClock
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
 
+from rosbeat.ros import threads
+from rosbeat.ros.engine import VirtualTime
+from rosbeat.ros.exception_origin import is_foreign
 from rosbeat.ros.processes import Entry
-from rosbeat.ros.virtual_time import VirtualTimeExecutor
+from rosbeat.ros.waits import board_here
+
+# When a session begins.
+
+#: Seconds since 1970 at which clocks begin: 2025-01-01 in UTC. On a robot no clock begins at zero,
+#: and public code takes zero for "never".
+START = 1_735_689_600
+#: The same of clocks that count from the start of the machine.
+STEADY_START = 3_600
+_STEADY_NS = STEADY_START * 1_000_000_000
 
 # Clocks.
 
@@ -27,36 +44,19 @@ from rosbeat.ros.virtual_time import VirtualTimeExecutor
 _POINT = rclpy_implementation.rcl_time_point_t
 
 
-class SessionClock(ROSClock):
-    """Give a node a ROS clock that only its session moves.
+class VirtualClock(Clock):
+    """Show the time of a session, whatever the clock's type.
 
     Each node has its own clock, because rcl visits all timers of a clock whenever the clock moves
     (`rcl_set_ros_time_override`): one shared clock for 10,000 timers made each step cost 0.2 ms.
     The clock moves when it is read and before one of its timers fires, so no node can read a time
     that another node has already passed.
 
-    rclpy's time source would set a node's clock from the parameter `use_sim_time` and from
-    `/clock` messages; both calls are accepted and change nothing.
+    To rcl it is a clock of ROS time, the only type that can be set.
     """
 
-    keeper: VirtualTimeExecutor
+    keeper: VirtualTime
     _shown: int
-
-    def set_ros_time_override(self, time: Time) -> None:
-        """Accept rclpy's call and keep the session's own time."""
-
-    def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Accept rclpy's call; `follow_session` and `follow_wall` decide."""
-
-    def follow_session(self) -> None:
-        """Show virtual time from now on."""
-        self._shown = -1
-        self.move()
-        super()._set_ros_time_is_active(True)
-
-    def follow_wall(self) -> None:
-        """Show wall time from now on, as a clock does without `use_sim_time`."""
-        super()._set_ros_time_is_active(False)
 
     def move(self) -> None:
         """Move to the session's time."""
@@ -66,28 +66,82 @@ class SessionClock(ROSClock):
             # Without the detour through `Time` and the method of rclpy's clock.
             handle = self.handle
             with handle:
-                handle.set_ros_time_override(_POINT(time_ns, ClockType.ROS_TIME))
+                handle.set_ros_time_override(
+                    _POINT(time_ns + self._start_ns, ClockType.ROS_TIME)
+                )
 
     def now(self) -> Time:
         """Return the time; see rclpy."""
-        if not self.keeper.is_live:
-            self.move()
-        return super().now()
+        if self.keeper.is_live:
+            return self._live_now()
+        return Time(nanoseconds=self.keeper.now + self._start_ns, clock_type=self._clock_type)
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Sleep until a time of this clock; see rclpy. `sleep_for` calls this, too."""
         if self.keeper.is_live:
             return bool(super().sleep_until(until, context))
-        self.keeper.sleep_until(until.nanoseconds)
+        _check_sleep(self, until, context)
+        self.keeper.sleep_until(until.nanoseconds - self._start_ns)
         return True
 
+    def follow_session(self) -> None:
+        """Show virtual time from now on."""
+        self._shown = -1
+        self._override(True)
+        self.move()
 
-def make_clock(keeper: VirtualTimeExecutor) -> SessionClock:
+    def follow_wall(self) -> None:
+        """Show wall time from now on."""
+        self._override(False)
+
+    @property
+    def _start_ns(self) -> int:
+        steady = self._clock_type is ClockType.STEADY_TIME
+        return _STEADY_NS if steady else self.keeper.start_ns
+
+    def _override(self, active: bool) -> None:
+        handle = self.handle
+        with handle:
+            handle.set_ros_time_override_is_enabled(active)
+
+    def _live_now(self) -> Time:
+        handle = self.handle
+        with handle:
+            now = handle.get_now()
+        return Time(nanoseconds=now.nanoseconds, clock_type=self._clock_type)
+
+
+def _check_sleep(clock: Clock, until: Time, context: Context | None) -> None:
+    """Refuse what rclpy refuses; see `Clock.sleep_until`."""
+    if until.clock_type != clock.clock_type:
+        raise ValueError("until's clock type does not match this clock's type")
+    home = context or rclpy.utilities.get_default_context()
+    if not home.ok():
+        raise rclpy.exceptions.NotInitializedException()
+
+
+class SessionClock(VirtualClock, ROSClock):
+    """Give a node a ROS clock that only its session moves.
+
+    rclpy's time source would set a node's clock from the parameter `use_sim_time` and from
+    `/clock` messages; both calls are accepted and change nothing.
+    """
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Accept rclpy's call and keep the session's own time."""
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        """Accept rclpy's call; `follow_session` and `follow_wall` decide."""
+
+
+def make_clock(keeper: VirtualTime, clock_type: ClockType = ClockType.ROS_TIME) -> VirtualClock:
     """Return a clock that shows the time of a session."""
     # ROSClock's constructor always returns a plain ROSClock, whatever class it is asked for.
-    clock = ROSClock()
-    clock.__class__ = SessionClock
-    made: SessionClock = clock
+    clock = _original_new(Clock, clock_type=ClockType.ROS_TIME)
+    ros = clock_type is ClockType.ROS_TIME
+    clock.__class__ = SessionClock if ros else VirtualClock
+    made: VirtualClock = clock
+    made._clock_type = clock_type
     made.keeper = keeper
     made.follow_session()
     if keeper.is_live:
@@ -95,60 +149,94 @@ def make_clock(keeper: VirtualTimeExecutor) -> SessionClock:
     return made
 
 
-# Functions that block.
+_original_new: Callable[..., Any] = Clock.__new__
+
+
+@wraps(_original_new)
+def _new(kind: type, *args: Any, clock_type: ClockType = ClockType.SYSTEM_TIME, **rest: Any) -> Any:  # noqa: ANN401 - rclpy's own
+    board = board_here()
+    known = not args and not rest and isinstance(clock_type, ClockType)
+    if isinstance(board, VirtualTime) and not board.is_live and known and kind in (Clock, ROSClock):
+        return make_clock(board, clock_type)
+    return _original_new(kind, *args, clock_type=clock_type, **rest)
+
+
+Clock.__new__ = staticmethod(_new)  # at import, so exactly once in a process
+
+
+# Functions that tell the time, or block.
 #
-# While a session runs nodes, `time.sleep` and `rclpy.wait_for_message` in the session's thread
-# suspend only the simulated process that calls them (see `virtual_time`). The same holds for
-# `wait_for_service` and `wait_for_server`, which rclpy builds on `time.sleep`. Threads that nodes
-# start, and rosbeat's own code, sleep in real time.
+# While a session runs nodes, the names below mean virtual time for the code of nodes: where they
+# are defined, and in the modules that the learner wrote and that have imported them by name.
+# rosbeat's own code, and threads that no node has started, see real time as ever.
 
 
 _OWN = str(Path(__file__).parents[1])
 #: Seconds that `time.sleep` refuses: their nanoseconds are no C `long long`.
 _TOO_LONG = 2**63 / 1e9
+#: What Python's own modules have imported by name.
+_LIBRARY = (time, threading, queue, message_waiting)
+_REAL = {name: getattr(time, name) for name in (
+    "sleep", "time", "time_ns", "monotonic", "monotonic_ns", "perf_counter", "perf_counter_ns",
+)}  # fmt: skip
 
 
-class VirtualWaits:
-    """Replace blocking functions such as `time.sleep` by versions that wait in virtual time.
+class VirtualNames:
+    """Replace functions such as `time.sleep` by versions that know virtual time.
 
     Args:
-        virtual: The session's executor.
-        entry_of: Returns the session's entry for a subscription.
+        virtual: The session's engine.
+        entry_of: Returns what the session knows of a subscription.
     """
 
     def __init__(
-        self, virtual: VirtualTimeExecutor, entry_of: Callable[[Any], Entry | None]
+        self, virtual: VirtualTime, entry_of: Callable[[Any], Entry | None]
     ) -> None:
         self._virtual, self._entry_of = virtual, entry_of
-        self._sleep = time.sleep
         self._wait_for_message = message_waiting.wait_for_message
+        clocks = {
+            "time": (self._wall, 1e9), "time_ns": (self._wall, 0),
+            "monotonic": (self._steady, 1e9), "monotonic_ns": (self._steady, 0),
+            "perf_counter": (self._steady, 1e9), "perf_counter_ns": (self._steady, 0),
+        }  # fmt: skip
+        self._places: dict[Any, object] = {
+            _REAL["sleep"]: self.sleep,
+            threading.Lock: threads.make_lock,
+            threading._allocate_lock: threads.make_lock,  # type: ignore[attr-defined]
+            threading.RLock: threads.make_reentrant_lock,
+            queue.SimpleQueue: threads.make_simple_queue,
+            threading.get_ident: threads.get_ident,
+            self._wait_for_message: self.wait_for_message,
+        }
+        for name, (read, unit) in clocks.items():
+            self._places[_REAL[name]] = self._clock(_REAL[name], read, unit)
 
     @contextmanager
     def installed(self, code: Iterable[object]) -> Iterator[None]:
         """Let everything that waits take virtual time in this block.
 
         Args:
-            code: Classes and functions in whose modules `from time import sleep` may stand.
+            code: Classes and functions of nodes, in whose modules `from time import sleep` may
+                stand, and in the modules that these import.
         """
-        places = {
-            self._sleep: self.sleep,
-            self._wait_for_message: self.wait_for_message,
-        }
-        namespaces = [vars(time), vars(message_waiting), *_namespaces(code)]
-        with _in_place_of(places, namespaces):
+        namespaces = [*map(vars, _LIBRARY), *_namespaces(code)]
+        with _in_place_of(self._places, namespaces):
             yield
 
     def sleep(self, seconds: Any) -> None:  # noqa: ANN401 - unchecked
         """Sleep, as `time.sleep` does; in the code of a node, in virtual time."""
         own = sys._getframe(1).f_code.co_filename.startswith(_OWN)
         if own or not self._virtual.in_callback:
-            self._sleep(seconds)
+            _REAL["sleep"](seconds)
             return
         span = seconds if isinstance(seconds, float) else index(seconds)  # as Python does it
         if 0 <= span < _TOO_LONG:
-            self._virtual.sleep(span)
+            if self._virtual.constructor_waits is not None and not self._virtual.running:
+                self._virtual.constructor_waits(round(span * 1e9), "sleep")
+            else:
+                self._virtual.sleep(span)
         else:
-            self._sleep(seconds)  # which refuses it
+            _REAL["sleep"](seconds)  # which refuses it
 
     def wait_for_message(
         self,
@@ -161,30 +249,51 @@ class VirtualWaits:
     ) -> tuple[bool, Any]:
         """Wait for the next message of a topic; see `rclpy.wait_for_message`."""
         if not self._virtual.in_callback:
-            found: tuple[bool, Any] = self._wait_for_message(
+            answer: tuple[bool, Any] = self._wait_for_message(
                 msg_type, node, topic, qos_profile=qos_profile, time_to_wait=time_to_wait
             )
-            return found
+            return answer
         subscription = node.create_subscription(msg_type, topic, lambda _: None, qos_profile)
         entry = self._entry_of(subscription)
         if entry is not None:
             self._virtual.unwatch(entry)  # the caller takes the message, and no executor
-        taken: list[Any] = []
+        messages: list[Any] = []
 
         def arrived() -> bool:
             # What was stored may be taken already: see `qos_events.TakenEarly`.
             handle = subscription.handle if entry is None else entry.handle
             with handle:
-                found = handle.take_message(msg_type, subscription.raw)
-            taken.extend(found[:1] if found else [])
-            return bool(taken)
+                taken = handle.take_message(msg_type, subscription.raw)
+            messages.extend(taken[:1] if taken else [])
+            return bool(messages)
 
         until = self._virtual.after(time_to_wait)
         try:
             self._virtual.block(f"a message on {subscription.topic_name}", until, arrived)
         finally:
             node.destroy_subscription(subscription)
-        return (True, taken[0]) if taken else (False, None)
+        return (True, messages[0]) if messages else (False, None)
+
+    def _wall(self) -> int:
+        return self._virtual.now + self._virtual.start_ns
+
+    def _steady(self) -> int:
+        return self._virtual.now + _STEADY_NS
+
+    def _clock(
+        self, real: Callable[[], Any], read: Callable[[], int], unit: float
+    ) -> Callable[[], Any]:
+        virtual = self._virtual
+
+        @wraps(real)
+        def tell() -> Any:  # noqa: ANN401 - seconds or nanoseconds
+            own = sys._getframe(1).f_code.co_filename.startswith(_OWN)
+            if own or not virtual.in_callback or virtual.is_live:
+                return real()
+            virtual.clock_read()
+            return read() / unit if unit else read()
+
+        return tell
 
 
 @contextmanager
@@ -193,27 +302,53 @@ def _in_place_of(
 ) -> Iterator[None]:
     """Exchange functions wherever a name stands for them, and put them back."""
     known = {id(old): (old, new) for old, new in places.items()}
-    found = [
-        (names, key, *known[id(one)])
+    names_found = [
+        (names, key, *known[id(value)])
         for names in namespaces
-        for key, one in names.items()
-        if id(one) in known
+        for key, value in names.items()
+        if id(value) in known
     ]
-    for names, key, _, new in found:
+    for names, key, _, new in names_found:
         names[key] = new
     try:
         yield
     finally:
-        for names, key, old, new in found:
+        for names, key, old, new in names_found:
             if names.get(key) is new:
                 names[key] = old
 
 
 def _namespaces(code: Iterable[object]) -> list[dict[str, Any]]:
-    """Return the global names that functions see, and those of classes and their bases."""
+    """Return the global names that functions see, those of classes and their bases, and onwards.
+
+    Modules that these have imported belong to them, unless they are Python's or installed.
+    """
     parts: list[object] = []
-    for one in code:
-        bases = one.__mro__ if isinstance(one, type) else ()
-        parts += [one, *(part for base in bases for part in vars(base).values())]
+    for value in code:
+        bases = value.__mro__ if isinstance(value, type) else ()
+        parts += [value, *(part for base in bases for part in vars(base).values())]
     found = {id(names): names for part in parts if (names := getattr(part, "__globals__", None))}
+    waiting = [names for names in found.values() if not _is_library(names)]
+    while waiting:
+        for names in _imported_by(waiting.pop()):
+            if id(names) not in found and not _is_library(names):
+                found[id(names)] = names
+                waiting.append(names)
     return list(found.values())
+
+
+def _imported_by(names: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    for value in list(names.values()):
+        if isinstance(value, ModuleType):
+            yield vars(value)
+        elif isinstance(value, type) or callable(value):
+            module = sys.modules.get(getattr(value, "__module__", None) or "")
+            if module is not None:
+                yield vars(module)
+
+
+def _is_library(names: dict[str, Any]) -> bool:
+    file = names.get("__file__")
+    if names.get("__name__") == "__main__":
+        return False  # a page: its cells are of the learner's
+    return not isinstance(file, str) or is_foreign(file)

@@ -28,7 +28,7 @@ from rosbeat.errors import (
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 
 if TYPE_CHECKING:
-    from rosbeat.ros.processes import Wait
+    from rosbeat.ros.waits import Wait
 
 
 #: What to write in the place of a call that waits in a callback.

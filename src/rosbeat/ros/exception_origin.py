@@ -138,7 +138,12 @@ def is_learners(frame: FrameType) -> bool:
     name = frame.f_code.co_filename
     if name == "<string>":  # code that a library has written, as for a dataclass, is of its module
         name = str(frame.f_globals.get("__file__", name))
-    return not name.startswith(_FOREIGN) and not name.startswith("<frozen")
+    return not is_foreign(name) and not name.startswith("<frozen")
+
+
+def is_foreign(file: str) -> bool:
+    """Return whether a file is of the standard library, an installed package or rosbeat."""
+    return file.startswith(_FOREIGN)
 
 
 def line_of(frame: FrameType | None) -> tuple[int, str]:

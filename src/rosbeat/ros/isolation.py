@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import builtins
 import gc
 import linecache
@@ -275,7 +276,7 @@ class Sink(TextIOBase):
     def __init__(self, real: Any, count: Count) -> None:  # noqa: ANN401 - whatever stdout is
         super().__init__()
         self._real, self._count = real, count
-        here = threading.get_ident()
+        here = _thread.get_ident()
         self._others = {one.ident for one in threading.enumerate() if one.ident != here}
 
     def writable(self) -> bool:
@@ -284,7 +285,7 @@ class Sink(TextIOBase):
 
     def write(self, text: str) -> int:
         """Count a text."""
-        if threading.get_ident() in self._others:
+        if _thread.get_ident() in self._others:
             return int(self._real.write(text))
         if not sys._getframe(1).f_code.co_filename.startswith(_ROSBEAT):
             self._count.characters += len(text)

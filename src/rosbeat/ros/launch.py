@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
@@ -27,8 +26,6 @@ from rosbeat.ros.recording import repair_message_classes
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
     from rosbeat.ros.session_core import SessionCore
-
-_SIM_TIME = "use_sim_time"
 
 
 class Start(TypedDict, total=False):
@@ -200,13 +197,3 @@ def _construction_error(name: str, error: BaseException) -> NodeConstructionErro
     where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
     what = f"{name} could not be created: {fault.kind}: {text}{where}"
     return NodeConstructionError(what, means, to_try)
-
-
-def show_sim_time(node: Node | None, active: bool) -> None:
-    """Let a node's `use_sim_time` say whether its time is virtual.
-
-    Not with `set_parameters`: that would call the node's own callback for parameter changes,
-    publish the change, and subscribe the node to `/clock`. Its clock is a `SessionClock` anyway.
-    """
-    if node is not None and _SIM_TIME in node._parameters:
-        node._parameters[_SIM_TIME] = Parameter(_SIM_TIME, value=active)

@@ -22,7 +22,8 @@ from rclpy.executors import (
 from rclpy.node import Node
 from rclpy.task import Future, Task
 
-from rosbeat.ros.processes import Entry, take_message
+from rosbeat.ros.processes import Entry
+from rosbeat.ros.taking import take_message
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity

@@ -7,7 +7,7 @@ from bisect import bisect_left
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from threading import get_ident
+from _thread import get_ident
 from typing import TYPE_CHECKING, Any
 
 from rclpy.duration import Duration, Infinite
@@ -22,7 +22,8 @@ from rclpy.publisher import Publisher
 from rclpy.qos import HistoryPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
 
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS
-from rosbeat.ros.processes import Entry, NodeState, Work, callback_name, message_work
+from rosbeat.ros.processes import Entry, NodeState, callback_name
+from rosbeat.ros.taking import Work, message_work
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity, PublisherTap

@@ -346,6 +346,7 @@ class PublisherTap:
     def __init__(self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]) -> None:
         self.topic: str = publisher.topic_name
         self.count = 0
+        self._publisher = publisher
         self._handle = publisher.handle
         self._qos: QoSProfile = publisher.qos_profile
         self._type = publisher.msg_type
@@ -371,6 +372,16 @@ class PublisherTap:
 
         publish.__qualname__ = send.__qualname__  # for the errors of a call with other arguments
         publisher.publish = publish
+
+    def close(self) -> None:
+        """Refuse further messages, as rclpy does when the publisher's context was shut down."""
+
+        def publish(msg: Any) -> None:  # noqa: ANN401 - a message of any type
+            raise rclpy_implementation.RCLError(
+                "Failed to publish: publisher's context is invalid, at ./src/rcl/publisher.c:423"
+            )
+
+        self._publisher.publish = publish
 
     def listen(self, listener: Callable[[], None]) -> None:
         """Call this, too, after each message."""
@@ -524,6 +535,8 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
             core.node_begins(start.name or name, namespace)
             with core.context.making_node():
                 original(node, *args, **kwargs)
+        if context is not kwargs.get("context", context):
+            node._context = context  # whose `ok` and `on_shutdown` are the program's own
         core.node_made(node)
 
     return init

@@ -459,7 +459,7 @@ class _Run:
         for call in self._core.virtual.suspended:
             wait = call.wait
             is_long = call.began_ns <= self._end / 2
-            if wait and not call.spinning and (is_long or (wait.until_ns or 0) >= 2 * self._end):
+            if wait and not call.idle and (is_long or (wait.until_ns or 0) >= 2 * self._end):
                 frame = wait.thread.gr_frame
                 self._late = self._late_fault(call.node, call.name, wait.reason, frame)
                 return

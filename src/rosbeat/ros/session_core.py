@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
+import threading
+from _thread import get_ident
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import count
-from threading import get_ident
 from traceback import walk_tb
 from types import FrameType
 from typing import Any
@@ -18,6 +19,7 @@ import rclpy.utilities
 from greenlet import getcurrent
 from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
+from rclpy.executors import Executor, MultiThreadedExecutor
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -27,7 +29,7 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import action_of
-from rosbeat.ros.clock import SessionClock, VirtualWaits, make_clock
+from rosbeat.ros.clock import START, VirtualClock, VirtualNames, make_clock
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.errors import (
     INSTEAD_OF_WAITING,
@@ -45,18 +47,10 @@ from rosbeat.ros.errors import (
 from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.isolation import SeededRandom
-from rosbeat.ros.launch import Launch, Maker, build_in, show_sim_time
+from rosbeat.ros.launch import Launch, Maker, build_in
+from rosbeat.ros.engine import LONGEST_WAIT, VirtualTime, is_plain
 from rosbeat.ros.live import LiveExecutor
-from rosbeat.ros.processes import (
-    TAKERS,
-    Call,
-    Entry,
-    NodeState,
-    Process,
-    Wait,
-    callback_name,
-    full_name,
-)
+from rosbeat.ros.processes import Entry, NodeState, Process, callback_name, full_name
 from rosbeat.ros.qos_events import Limits, wait_for_stored
 from rosbeat.ros.recording import (
     Entity,
@@ -67,8 +61,9 @@ from rosbeat.ros.recording import (
     SessionLogger,
     repair_message_classes,
 )
-from rosbeat.ros.virtual_time import LONGEST_WAIT, VirtualTimeExecutor
-from rosbeat.ros.wait_set import waitable_label, waitable_name
+from rosbeat.ros.taking import TAKERS
+from rosbeat.ros.wait_set import ProcessExecutor, waitable_label, waitable_name
+from rosbeat.ros.waits import _BOARD, Call, Wait
 
 #: Seconds after which an interrupt is meant for the callback that it hits.
 _ENDLESS = 1.0
@@ -82,23 +77,30 @@ class SessionCore:
     nothing else refers to it.
 
     Attributes:
-        virtual: The executor of virtual time; it also keeps the time while nothing runs.
+        virtual: The engine of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
         domain_id: The domain that the session has joined; None in a private session.
         graph_observer: Observes the other processes; None in a private session, which has none.
         external_messages: Records messages from other processes; None in a private session.
         start: How the node that is being created is started.
+        replaces_nodes: Whether a new node takes the place of one of the same name, as on a page,
+            where a cell is run again. On a robot both run.
         makers: The factory of each node, and how the node was started.
         next_number: Returns the position of a new entity in the order of creation.
     """
 
-    def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
+    def __init__(
+        self, seed: int = 0, domain_id: int | None = None, start_time: float = START
+    ) -> None:
         self._states: dict[Node, NodeState] = {}
         self._entries: dict[Any, Entry] = {}
+        self._keys: dict[int, Entry] = {}
+        self.replaces_nodes = False
         # A destroyed node cannot say its name, and a destroyed action stays in the graph.
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
         self.action_ends: WeakSet[Any] = WeakSet()
         self._goals = count(1)
+        self._processes: WeakSet[Process] = WeakSet()
         self.next_number = count(1).__next__
         repair_message_classes()
         self.domain_id = domain_id
@@ -106,13 +108,13 @@ class SessionCore:
         self.recorder = Recorder()
         self.console = Console()
         self.context = SessionContext(self, domain_id)
-        self.virtual = VirtualTimeExecutor(self.context, self.recorder, self)
+        self.virtual = VirtualTime(self.recorder, self, round(start_time * NANOSECONDS))
         self.live: LiveExecutor | None = None
         self.limits = Limits(self)
         self.closed = False
         self.panel: Any = None
         self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
-        self._waits = VirtualWaits(self.virtual, self._entries.get)
+        self._names_of_time = VirtualNames(self.virtual, self._entries.get)
         self._random = SeededRandom(seed)
         self._live_since = 0
         self._shown_logs = self._shown_faults = 0
@@ -143,6 +145,14 @@ class SessionCore:
         """Return what is known of a node."""
         return self._states.get(node)
 
+    def entry_of(self, entity: Any) -> Entry | None:  # noqa: ANN401 - any entity of rclpy
+        """Return what is known of an entity."""
+        return self._entries.get(entity)
+
+    def entry_of_key(self, key: int) -> Entry | None:
+        """Return the entity of a key in a wait set."""
+        return self._keys.get(key)
+
     def name_of(self, node: Node) -> str | None:
         """Return the full name of a node that is or was here."""
         return self._names.get(node)
@@ -158,16 +168,72 @@ class SessionCore:
 
     def spin_node(self, state: NodeState) -> None:
         """Run this node's callbacks from now on."""
-        state.spinning, state.paused = True, False
-        executor = self.live or self.virtual
-        state.node.executor = executor
-        executor.wake()
+        state.paused = False
+        process = state.process
+        if self.live is not None:
+            state.spinning = True
+            state.node.executor = self.live
+            self.live.wake()
+        elif process.program is None:
+            self._spin_in_process(state)
+        else:
+            state.spinning = state.node.executor is not None
+            self.virtual.entities_changed()
         self.virtual.resume(state)
+
+    def _spin_in_process(self, state: NodeState) -> None:
+        process = state.process
+        if process.executor is None:
+            with self.starting(Launch(), process):
+                process.executor = self._make_executor(process)
+        if len(process.states) == 1 and process.pool_size == 1:
+            # As in the `main` of most programs: `rclpy.spin(node)`.
+            process.global_executor = process.executor
+        state.spinning = True
+        state.node.executor = process.executor
+        self._adopt_entities(state)
+        self.virtual.spin_process(process)
+
+    def _make_executor(self, process: Process) -> Executor:
+        if process.pool_size == 1:
+            return ProcessExecutor(self, process)
+        return MultiThreadedExecutor(process.pool_size, context=self.context)
+
+    def _adopt_entities(self, state: NodeState) -> None:
+        """Watch entities that no `create_*` of the node has made, as in a lifecycle node."""
+        node, known = state.node, self._entries
+        for kind, entities in (
+            ("subscription", node.subscriptions),
+            ("service", node.services),
+            ("client", node.clients),
+            ("timer", node.timers),
+        ):
+            for entity in entities:
+                if entity not in known:
+                    self._watch(state, kind, entity)
+
+    def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
+        """Note that an executor has begun or ceased to spin a node."""
+        state = self._states.get(node)
+        if state is None:
+            return
+        state.spinning = spins and not (state.paused or state.ended)
+        state.process.refresh()
+        if spins and state.process.program is not None:
+            self._adopt_entities(state)
+        if spins:
+            self.virtual.entities_changed()
+        elif executor is state.process.executor and self.virtual.in_callback:
+            note(
+                f"a spin function of rclpy has removed {state.name} from the executor of its "
+                "process, so its callbacks no longer run."
+            )
 
     def pause_node(self, state: NodeState) -> None:
         """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
         state.spinning = False
         state.process.refresh()
+        self.virtual.entities_changed()
         if self.live is not None:
             self.live.wake()  # it may be waiting for this node
 
@@ -211,7 +277,8 @@ class SessionCore:
         for state in list(process.states):
             self.pause_node(state)
             state.ended = True
-        for call in [one for one in process.calls if one.wait is not None]:
+        process.is_over = True
+        for call in [call for call in process.calls if call.wait is not None]:
             self.virtual.break_off(call)
 
     def destroy(self, state: NodeState) -> None:
@@ -229,20 +296,22 @@ class SessionCore:
         """Let nodes that are made in this block be started so, in a process of theirs."""
         before, self.start = self.start, start
         caller, self.virtual.current = self.virtual.current, Call(process or Process())
+        token = _BOARD.set(self.virtual if self.live is None else None)
         try:
             yield
         finally:
+            _BOARD.reset(token)
             self.start, self.virtual.current = before, caller
 
     # What the hooks tell.
 
     def node_begins(self, name: str, namespace: str) -> None:
-        """Make room for a node that is about to be made: one of the same name is destroyed.
+        """Make room for a node that is about to be made: on a page, one of its name is destroyed.
 
         It has to go first: rcl keeps one log publisher for each name and removes it with the first
         node of that name that is destroyed.
         """
-        old = self.named(full_name(name, namespace))
+        old = self.named(full_name(name, namespace)) if self.replaces_nodes else None
         if old is not None:
             call, program = self.virtual.current, old.process.program
             if program is not None and (call is None or call.process is not old.process):
@@ -252,12 +321,11 @@ class SessionCore:
     def node_made(self, node: Node) -> None:
         """Note that `Node.__init__` has returned."""
         self.entity_begins(node)
-        show_sim_time(node, self.live is None)
 
     def entity_begins(self, node: Node) -> None:
         """Give a new node a clock of the session, before anything of it reads the time."""
         clock = node.__dict__.get("_clock")
-        if isinstance(clock, SessionClock):
+        if isinstance(clock, VirtualClock):
             clock.move()
         elif clock is not None:
             # In the place of the clock that rclpy's constructor has just made.
@@ -268,6 +336,7 @@ class SessionCore:
             process = call.process if call is not None and self.live is None else Process()
             state = NodeState(len(self._states), name, node, process, born_ns=self.now())
             process.states.append(state)
+            self._processes.add(process)
             self._states[node] = state
             self._names[node] = name
 
@@ -279,6 +348,9 @@ class SessionCore:
         elif kind == "rate":
             # A rate has no public name for its timer.
             entity.sleep = partial(self._sleep, self._entries[entity._timer], entity.sleep)
+            with self.running(), self.starting(self.start, state.process):
+                entity._event = threading.Event()  # one that waits in virtual time
+            entity._timer.callback = entity._event.set
         else:
             self._watch(state, kind, entity)
 
@@ -291,6 +363,7 @@ class SessionCore:
         self.virtual.forget(state)
         for entry in state.entries:
             self._entries.pop(entry.entity, None)
+            self._keys.pop(entry.key, None)
         if node.executor is not None:
             node.executor.remove_node(node)
 
@@ -317,9 +390,13 @@ class SessionCore:
         if state is None:
             note("rclpy.shutdown() does not close this session; use `ros.close()`.")
             return
-        for one in state.process.states:
-            one.spinning, one.ended = False, True
-        state.process.refresh()
+        process = state.process
+        for other in process.states:
+            other.spinning, other.ended = False, True
+        process.is_over = True
+        process.refresh()
+        if process.spinner is not None:
+            self.virtual.break_off(process.spinner)
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes keep running.")
 
     def refuse_in_callback(self, call: str) -> None:
@@ -354,6 +431,10 @@ class SessionCore:
         # An action tells by itself, as soon as it knows what it was.
         elif state is not None and not action_of(entity, state):
             self.heard(state, *waitable_label(entity, state.node))
+
+    def event_heard(self, handler: Entity, state: NodeState) -> None:
+        """Record the callback of a QoS event that is about to run."""
+        self.heard(state, *waitable_label(handler, state.node))
 
     def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
         """Record a callback of an action or another waitable that is about to run."""
@@ -431,19 +512,27 @@ class SessionCore:
     def wait(
         self,
         call: str,
-        reason: str,
         done: Callable[[], bool],
         seconds: float | None,
-        needs: Entity,
     ) -> bool:
-        """Wait until something is done, in a callback as in a cell."""
+        """Wait until something is done, in a cell."""
         if self.live is not None:
             self.refuse_in_callback(call)
             return poll(done, None if seconds is None else time.monotonic() + seconds)
-        if self.virtual.in_callback:
-            needed = needs if self._is_in_current_process(needs) else None
-            return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needed)
         return self.wait_until(done, seconds)
+
+    @contextmanager
+    def waiting_for(self, reason: str, needs: Entity) -> Iterator[None]:
+        """Say what code of a node waits for in this block, and the entity that has to run first."""
+        call = self.virtual.current
+        if call is None:
+            yield
+            return
+        call.hint = reason, needs if self._is_in_current_process(needs) else None
+        try:
+            yield
+        finally:
+            call.hint = None
 
     def next_goal(self) -> int:
         """Return how many goals were sent here; 0 in a domain with other processes in it."""
@@ -484,7 +573,7 @@ class SessionCore:
         """
         before = self.context.install()
         try:
-            virtually = self._waits.installed([*self._code(), *code])
+            virtually = self._names_of_time.installed([*self._code(), *code])
             with self._random.lent(), virtually if self.live is None else nullcontext():
                 yield
         finally:
@@ -514,7 +603,7 @@ class SessionCore:
         Raises:
             SessionError: If a callback still waits in virtual time.
         """
-        waiting = self.virtual.suspended
+        waiting = [call for call in self.virtual.suspended if not call.idle]
         if waiting:
             raise SessionError(
                 f"The session cannot go live: `{waiting[0].name}` of {waiting[0].node} is still "
@@ -535,19 +624,20 @@ class SessionCore:
             return
         self.live.finish()
         self.virtual.now, self.live = self.now(), None
-        self._change_executor(self.virtual)
+        self._change_executor(None)
         self.virtual.look_anew()
 
-    def _change_executor(self, executor: LiveExecutor | VirtualTimeExecutor) -> None:
-        is_virtual = executor is self.virtual
+    def _change_executor(self, live: LiveExecutor | None) -> None:
+        is_virtual = live is None
         self.virtual.is_live = not is_virtual
         for state in self.states():
             # Not `get_clock`, which a learner's class may have replaced.
-            clock: SessionClock = state.node._clock
+            clock: VirtualClock = state.node._clock
             clock.follow_session() if is_virtual else clock.follow_wall()
-            show_sim_time(state.node, is_virtual)
-            if state.spinning:
-                state.node.executor = executor
+            if state.spinning and live is not None:
+                state.node.executor = live
+            elif state.spinning:
+                self._spin_in_process(state)
             for timer in (one.entity for one in state.entries if one.kind.endswith("timer")):
                 # Each timer begins a new period: its deadline is a reading of the other clock.
                 with suppress(InvalidHandle):  # destroyed by its node
@@ -571,12 +661,16 @@ class SessionCore:
         self.virtual.close()
         for state in reversed(self.states()):
             self.destroy(state)
+        for process in self._processes:
+            for executor in (process.executor, process.global_executor):
+                if executor is not None:
+                    with suppress(Exception):  # a program may have destroyed it
+                        executor.shutdown(timeout_sec=0)
         for entity in list(self.action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
         if self.graph_observer is not None:
             self.graph_observer.destroy_node()
-        self.virtual.shutdown()
         self.context.end()
 
     # Watching what nodes make.
@@ -591,12 +685,15 @@ class SessionCore:
         entry = Entry(self.next_number(), state, kind, entity, name, label, TAKERS.get(kind))
         state.entries.append(entry)
         self._entries[entity] = entry
+        self._keys[entry.key] = entry
         if kind == "timer":
             self._watch_timer(entry)
         elif kind == "subscription":
             self._watch_subscription(entry)
         elif kind == "client":
             self._watch_client(entry)
+        elif kind == "service":
+            self._watch_service(entry)
         self.virtual.watch(entry)
 
     def _watch_client(self, entry: Entry) -> None:
@@ -609,8 +706,13 @@ class SessionCore:
             self.sent("service", entry.name, entry.state)
             return future
 
+        call_and_wait = client.call
+
         def call(request: Message, timeout_sec: float | None = None) -> Message:
             self._check_call(entry)
+            if self.live is None and self.virtual.in_callback:
+                with self.waiting_for(f"a response from {entry.name}", client):
+                    return call_and_wait(request, timeout_sec)
             return self._wait_for_answer(client, call_async(request), timeout_sec)
 
         def wait(timeout_sec: float | None = None) -> bool:
@@ -621,9 +723,21 @@ class SessionCore:
 
         client.call_async, client.call, client.wait_for_service = call_async, call, wait
 
+    def _watch_service(self, entry: Entry) -> None:
+        """Let clients hear of an answer, whoever sends it."""
+        service, answered = entry.entity, self.virtual.sender("client", entry.name, entry.state)
+        send = service.send_response
+
+        def send_response(response: Message, header: Any) -> None:  # noqa: ANN401 - filled in C
+            send(response, header)
+            if self.live is None:
+                answered()
+
+        service.send_response = send_response
+
     def _watch_timer(self, entry: Entry) -> None:
         timer = entry.entity
-        if isinstance(timer.clock, SessionClock):
+        if isinstance(timer.clock, VirtualClock):
             timer.reset = partial(self._reset_timer, entry, timer.reset)
             return
         entry.kind = "wall timer"
@@ -701,13 +815,11 @@ class SessionCore:
     def _wait_for_answer(
         self, client: Client, future: Future, timeout_sec: float | None
     ) -> Message:
-        """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
-        in_callback = self.live is None and self.virtual.in_callback
-        reason = f"a response from {client.service_name}"
-        self.wait("client.call", reason, future.done, timeout_sec, client)
+        """Do in a cell what `client.call` does when it has sent its request (rclpy, `client.py`)."""
+        self.wait("client.call", future.done, timeout_sec)
         if not future.done():
             client.remove_pending_request(future)
-            if timeout_sec is None and not in_callback:
+            if timeout_sec is None:
                 raise SessionError(
                     f"No node has responded to the call of {client.service_name}.",
                     "Either no node of this session offers that service, or its callback does "
@@ -718,16 +830,15 @@ class SessionCore:
         return future.result()
 
     def _sleep(self, entry: Entry, original: Callable[[], None]) -> None:
-        calls = entry.calls
         if self.live is not None:
             self.refuse_in_callback("rate.sleep")
             original()
+        elif self.virtual.in_callback:
+            with self.waiting_for("a rate", entry.entity):
+                original()
         else:
-
-            def done() -> bool:
-                return entry.calls > calls
-
-            self.wait("rate.sleep", "a rate", done, None, entry.entity)
+            calls = entry.calls
+            self.wait("rate.sleep", lambda: entry.calls > calls, None)
 
     def _is_in_current_process(self, entity: Entity) -> bool:
         call = self.virtual.current

@@ -27,14 +27,14 @@ from typing import TYPE_CHECKING, Any
 import rclpy.utilities
 from greenlet import GreenletExit
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
 from rosbeat.ros.errors import note
 from rosbeat.ros.exception_origin import error_text, fault_of
-from rosbeat.ros.processes import Call, Process
+from rosbeat.ros.processes import Process
+from rosbeat.ros.waits import Call
 
 if TYPE_CHECKING:
     from rosbeat.ros.session_core import SessionCore
@@ -73,8 +73,8 @@ class SimulatedProgram:
         self._process = Process(program=self)
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
-        self._failure: SessionError | None = None
         self._has_handlers = False  # those of rclpy
+        self._depth = 0  # how many times it was entered and not left
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
         self._outside: tuple[Any, ...] = ()
@@ -139,11 +139,15 @@ class SimulatedProgram:
     def start(self) -> None:
         """Run it until it waits for the first time."""
         virtual = self._core.virtual
-        virtual.start_main(self._run, self._process)
+        self._main = Call(self._process)
+        virtual.start_greenlet(self._main, self._run)
         virtual.run_until(virtual.now)
 
     def enter(self) -> None:
         """Put the program's own `sys.argv`, context and folder in place."""
+        self._depth += 1
+        if self._depth > 1:
+            return
         utilities = rclpy.utilities
         self._outside = (
             utilities.g_default_context, utilities.Context, sys.argv, signal.signal, list(sys.path),
@@ -155,8 +159,16 @@ class SimulatedProgram:
         if isinstance(self._target, Path):
             sys.path.insert(0, str(self._root))
 
+    @property
+    def is_entered(self) -> bool:
+        """Return whether what belongs to the program is in place."""
+        return self._depth > 0
+
     def leave(self) -> None:
         """Put everything back; the program's own state is kept for the next time."""
+        self._depth -= 1
+        if self._depth:
+            return
         utilities = rclpy.utilities
         self._context = utilities.g_default_context
         (utilities.g_default_context, utilities.Context, sys.argv, signal.signal, path) = (
@@ -165,24 +177,14 @@ class SimulatedProgram:
         sys.path[:] = path
 
     def shut_down(self) -> None:
-        """Let a `spin` of the program return: its context was shut down."""
-        main = self._main
-        if main is not None and main.spinning and self._is_idle():
-            self._core.virtual.end_wait(main)
+        """Let its publishers fail from now on: its context was shut down."""
+        for state in self._process.states:
+            for tap in state.taps:
+                tap.close()
 
     def install_handlers(self) -> None:
         """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
         self._has_handlers = True
-
-    def fail(self, error: SessionError) -> None:
-        """End the program with an error, from a thread of its own, as soon as `main` waits."""
-        self._failure = error
-        self._core.virtual.elsewhere.append(lambda: self._raise(error))
-
-    def callback_ended(self) -> None:
-        """Let `spin` return if the context was shut down meanwhile."""
-        if self._context is None or not self._context.ok():  # `rclpy.shutdown` forgets it
-            self.shut_down()
 
     # How it works.
 
@@ -190,16 +192,13 @@ class SimulatedProgram:
         return ProgramContext(self._core, self)
 
     def _run(self) -> None:
-        self._main = self._core.virtual.current
         error: BaseException | None = None
-        self.enter()
         try:
-            try:
-                code = self._load()()
-                sys.exit(code)
-            except BaseException as raised:
-                error = raised
-        finally:
+            code = self._load()()
+            sys.exit(code)
+        except BaseException as raised:
+            error = raised
+        while self._depth:  # what it printed and drew is its own; what follows is the session's
             self.leave()
         if isinstance(error, GreenletExit):  # it was killed, or its session was closed
             if self._context is not None:
@@ -210,7 +209,7 @@ class SimulatedProgram:
         if isinstance(error, KeyboardInterrupt) and error is not self.interrupt:
             self._end(-signal.SIGINT)
             raise error  # a real one, meant for the cell
-        self._finish(self._failure or error)
+        self._finish(error)
 
     def _load(self) -> Callable[[], Any]:
         """Return `main` of the file, imported afresh, as the script of an entry point does.
@@ -256,38 +255,28 @@ class SimulatedProgram:
 
     def _deliver(self, number: signal.Signals) -> None:
         """Do what the signal handlers of rclpy and of Python do."""
-        caught = self._has_handlers and self._context is not None and self._context.ok()
-        if caught:
-            Context.try_shutdown(self._context)  # without waking anybody yet
+        context = self._context
+        caught = self._has_handlers and context is not None and context.ok()
+        if caught and context is not None:
+            # As in C++: nobody is told but the executors, which wait for this, too.
+            with context.handle:
+                context.handle.shutdown()
+            self.shut_down()
         if number == signal.SIGINT:
             self.interrupt = KeyboardInterrupt()
             self._raise(self.interrupt)
-        elif caught:
-            self._external_shutdown()
-        else:
+        elif not caught:
             self._end(-number)
+            return
+        for call in self._process.calls:
+            if call.idle and call.wait is not None and call.wait.reason == "spin":
+                self._core.virtual.wake(call.wait)
 
     def _raise(self, error: BaseException) -> None:
         """Raise an exception where the main thread of the program is."""
-        calls = [call for call in self._process.calls if call.wait is not None]
-        single = self._process.threads == 1
-        where = calls[-1] if single and calls else self._main
-        if where is not None:
-            self._core.virtual.end_wait(where, error)
-
-    def _external_shutdown(self) -> None:
-        """End a `spin` that waits, as rclpy does when a context is shut down from outside."""
-        main = self._main
-        if main is None or not main.spinning or not self._is_idle():
-            return  # it sees for itself when it looks next
-        alone = self._process.threads == 1
-        self._core.virtual.end_wait(main, ExternalShutdownException() if alone else None)
-
-    def _is_idle(self) -> bool:
-        """Return whether no callback of the program has begun and not returned."""
-        running = self._core.virtual.current
-        calls = [*self._process.calls, *([running] if running is not None else [])]
-        return all(call.spinning or call.process is not self._process for call in calls)
+        waits = [call for call in self._process.calls if call.wait is not None and not call.ident]
+        if waits:
+            self._core.virtual.end_wait(waits[-1], error)
 
     def _finish(self, error: BaseException | None) -> None:
         code = 0
@@ -305,8 +294,9 @@ class SimulatedProgram:
         self._end(code)
 
     def _end(self, code: int) -> None:
-        """End the process: its callbacks, its nodes and its context."""
+        """End the process: its callbacks, its threads, its nodes and its context."""
         self.returncode = code
+        self._process.is_over = True
         virtual = self._core.virtual
         for call in list(self._process.calls):
             if call is not virtual.current:

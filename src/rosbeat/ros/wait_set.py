@@ -1,258 +1,369 @@
-"""Run the work that virtual time leaves to rclpy: coroutines, guard conditions and waitables.
+"""Let rclpy's own executors run in virtual time, over a wait set that suspends.
 
-Tasks and coroutines remain rclpy's own; this module only schedules them. Guard conditions and
-waitables (actions, middleware events) cannot be taken directly, so they go through rclpy's wait
-set.
+`Executor.spin`, `spin_once`, tasks, coroutines, callback groups, guard conditions and waitables
+remain rclpy's own. Only one thing is replaced: where an executor waits in C for whatever comes, it
+suspends its simulated thread, and the engine wakes it when something has come or time is up.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Coroutine, Iterable
-from contextlib import suppress
-from dataclasses import dataclass
+import os
+from collections.abc import Callable
+from functools import wraps
 from typing import TYPE_CHECKING, Any
 
-from greenlet import GreenletExit
-from rclpy.client import Client
+import rclpy
+import rclpy.executors
+from rclpy import wait_for_message as message_waiting
 from rclpy.event_handler import EventHandler
 from rclpy.exceptions import InvalidHandle
-from rclpy.executors import Executor, SingleThreadedExecutor, TimeoutException
+from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.guard_condition import GuardCondition
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
-from rclpy.service import Service
-from rclpy.subscription import Subscription
 from rclpy.task import Task
 from rclpy.timer import Timer
 
-from rosbeat.ros.isolation import DeadlinePassed
-from rosbeat.ros.processes import Call, Entry, NodeState, Process, callback_name
-from rosbeat.ros.qos_events import event_name, topic_of
+from rosbeat.ros.engine import VirtualTime
+from rosbeat.ros.processes import Entry, Process, callback_name
+from rosbeat.ros.qos_events import TakenEarly, event_name, topic_of
+from rosbeat.ros.recording import core_of
+from rosbeat.ros.taking import take_message
+from rosbeat.ros.waits import Call, board_here
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity
     from rosbeat.ros.session_core import SessionCore
 
-# Callbacks that wait by themselves: `async def` callbacks and tasks.
+_KINDS = ("subscription", "guard_condition", "timer", "client", "service")
+#: Threads of a `MultiThreadedExecutor()` in virtual time: the same on each machine.
+DEFAULT_THREADS = 4
 
 
-@dataclass(frozen=True, eq=False)
-class Waiting:
-    """Hold a coroutine or task that has not ended.
+def _engine_here() -> VirtualTime | None:
+    board = board_here()
+    return board if isinstance(board, VirtualTime) and not board.is_live else None
 
-    Attributes:
-        process: The process in which it runs; None if it was created outside of all nodes.
-        state: The node that began it, if there is one.
-        name: Its name in errors.
-        entry: The entity whose callback it is; its callback group is occupied until it ends.
-    """
 
-    task: Task
-    process: Process | None
-    state: NodeState | None
-    name: str
-    entry: Entry | None = None
+class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclpy is untyped
+    """Stand in for the wait set of an executor; outside of simulated code, be an ordinary one."""
 
-    @property
-    def ended(self) -> bool:
-        """Return whether it has returned, raised or been canceled."""
-        return bool(self.task.done() or self.task.cancelled())
+    def __init__(self, *arguments: Any) -> None:  # noqa: ANN401 - rclpy's own
+        super().__init__(*arguments)
+        self._counts = sum(arguments[:5])
+        self._handles: dict[str, list[Any]] = {kind: [] for kind in _KINDS}
 
-    @property
-    def abandoned(self) -> bool:
-        """Return whether the node that began it has ended."""
-        return self.state is not None and self.state.ended and not self.task.executing()
+    def add_subscription(self, handle: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        """Add a subscription."""
+        self._handles["subscription"].append(handle)
+        return super().add_subscription(handle)
 
-    @property
-    def rests(self) -> bool:
-        """Return whether it cannot continue now, because its node is paused or its process is busy.
+    def add_guard_condition(self, handle: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        """Add a guard condition."""
+        self._handles["guard_condition"].append(handle)
+        return super().add_guard_condition(handle)
 
-        rclpy visits its tasks again when it has handled everything that its last wait found ready.
+    def add_timer(self, handle: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        """Add a timer."""
+        self._handles["timer"].append(handle)
+        return super().add_timer(handle)
+
+    def add_client(self, handle: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        """Add a client."""
+        self._handles["client"].append(handle)
+        return super().add_client(handle)
+
+    def add_service(self, handle: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        """Add a service."""
+        self._handles["service"].append(handle)
+        return super().add_service(handle)
+
+    def wait(self, timeout_ns: int) -> None:
+        """Wait until something may be ready, in virtual time; see `rclpy_implementation.WaitSet`.
+
+        When it was woken by something that rclpy finds only with a wait set of its own, such as an
+        action, nothing is ready here, and rclpy makes another wait set.
         """
-        if self.task.executing() or (self.state is not None and not self.state.spinning):
-            return True
-        process = self.process
-        return process is not None and (not process.has_thread() or process.is_in_round())
-
-    def place(self) -> object:
-        """Return what it awaits, innermost: another object each time it has got further."""
-        # A task has no public name for its coroutine.
-        inner, deeper = None, self.task._handler
-        while deeper is not None:  # a coroutine, a generator, or neither
-            inner, deeper = deeper, getattr(deeper, "cr_await", None)
-            deeper = getattr(inner, "gi_yieldfrom", None) if deeper is None else deeper
-        return inner
-
-
-class Coroutines:
-    """Hold the coroutines of one executor that have not ended, in the order in which they began.
-
-    The newest coroutine of each process continues first, as in rclpy (`_wait_for_ready_callbacks`).
-    """
-
-    def __init__(self, executor: Executor) -> None:
-        self._executor = executor
-        self.waiting: list[Waiting] = []
-        self._round: deque[Waiting] = deque()
-
-    def add_task(self, task: Task, callback: object, call: Call | None) -> None:
-        """Begin a task at the next turn, in the process of the call that has created it."""
-        process, state = (call.process, call.state) if call else (None, None)
-        self.waiting.append(Waiting(task, process, state, callback_name(callback)))
-
-    def adopt(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> Waiting:
-        """Keep the coroutine that a callback returned; its group is occupied until it ends."""
-        entry.entity.callback_group.beginning_execution(entry.entity)
-        task = Task(coroutine, executor=self._executor)
-        state = entry.state
-        waiting = Waiting(task, state.process, state, entry.label.name, entry)
-        self.waiting.append(waiting)
-        return waiting
-
-    def step(self, run: Callable[[Waiting], None]) -> bool:
-        """Let one of them go on until it waits again; return whether any made progress.
-
-        Each gets its turn before one of them gets another.
-        """
-        for _ in range(2):
-            while self._round:
-                waiting = self._round.popleft()
-                if not waiting.ended and not waiting.rests:
-                    before = waiting.place()
-                    run(waiting)
-                    if waiting.ended or waiting.place() is not before:
-                        return True
-            of_process: dict[int, list[Waiting]] = {}
-            for waiting in self.waiting:
-                of_process.setdefault(id(waiting.process), []).append(waiting)
-            self._round.extend(one for group in of_process.values() for one in reversed(group))
-        return False
-
-    def end(self, waiting: Waiting) -> None:
-        """Forget one that has ended, and free its callback group."""
-        if waiting not in self.waiting:
+        engine = _engine_here()
+        if engine is None:
+            super().wait(timeout_ns)
             return
-        self.waiting.remove(waiting)  # the executor holds on to the list
-        if waiting.entry is not None:
-            waiting.entry.entity.callback_group.ending_execution(waiting.entry.entity)
+        self._look(engine)
+        if self._is_ready():
+            return
+        if timeout_ns == 0:
+            engine.polled()
+            return
+        engine.wait_in_set(self, timeout_ns)
+        if not self.has_waitables:
+            self._add_again()
+            self._look(engine)
 
-    def drop_abandoned(self) -> None:
-        """Close the coroutines of nodes that have ended."""
-        for waiting in [waiting for waiting in self.waiting if waiting.abandoned]:
-            waiting.task.cancel()
-            self.end(waiting)
+    @property
+    def has_waitables(self) -> bool:
+        """Return whether waitables, such as actions, have added entities of theirs."""
+        return self._counts > sum(map(len, self._handles.values()))
+
+    def keys(self) -> list[int]:
+        """Return the keys of what wakes this wait."""
+        return [id(handle) for handles in self._handles.values() for handle in handles]
+
+    def next_timer(self, now: int) -> tuple[int | None, int]:
+        """Return when the next timer is due and its order; None and 0 if there is none."""
+        engine = _engine_here()
+        assert engine is not None
+        nearest: int | None = None
+        order = 0
+        for handle in self._handles["timer"]:
+            timer = engine.timers.get(id(handle))
+            if timer is not None:
+                _move(timer)
+            with handle:
+                if handle.is_timer_canceled():
+                    continue
+                due = now + max(0, handle.time_until_next_call())
+            if nearest is None or due < nearest:
+                entry = engine.entry_of(timer)
+                nearest, order = due, entry.order if entry is not None else 0
+        return nearest, order
+
+    def get_ready_entities(self, kind: str) -> list[int]:
+        """Return pointers of what is ready, with subscriptions whose messages were taken early."""
+        ready: list[int] = super().get_ready_entities(kind)
+        if kind == "subscription":
+            ready += [handle.pointer for handle in self._with_early_messages()]
+        return ready
+
+    def _with_early_messages(self) -> list[Any]:
+        engine = _engine_here()
+        if engine is None:
+            return []
+        entries = [engine.entry_of_key(id(handle)) for handle in self._handles["subscription"]]
+        return [
+            entry.entity.handle for entry in entries
+            if entry is not None and isinstance(entry.handle, TakenEarly) and len(entry.handle)
+        ]  # fmt: skip
+
+    def _look(self, engine: VirtualTime) -> None:
+        for handle in self._handles["timer"]:
+            timer = engine.timers.get(id(handle))
+            if timer is not None:
+                _move(timer)
+        super().wait(0)
+
+    def _is_ready(self) -> bool:
+        return any(self.get_ready_entities(kind) for kind in _KINDS)
+
+    def _add_again(self) -> None:
+        handles, self._handles = self._handles, {kind: [] for kind in _KINDS}
+        self.clear_entities()
+        for kind, listed in handles.items():
+            for handle in listed:
+                getattr(self, f"add_{kind}")(handle)
 
 
-# What cannot be taken directly: guard conditions and waitables, through rclpy's own wait set.
+def _move(timer: Timer) -> None:
+    move = getattr(timer.clock, "move", None)
+    if move is not None:
+        move()
 
 
-_TAKEN_DIRECTLY = (Subscription, Timer, Client, Service)
+class _Implementation:
+    """Stand in for rclpy's C++ part where wait sets are made."""
+
+    WaitSet = VirtualWaitSet
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - anything
+        return getattr(rclpy_implementation, name)
 
 
-#: What ends more than the callback in which it is raised.
-NOT_OF_CALLBACKS = (KeyboardInterrupt, GreenletExit, DeadlinePassed)
+class ProcessExecutor(SingleThreadedExecutor):
+    """Be the executor of a process that has no program; see `processes`.
 
-
-class WaitSetExecutor(SingleThreadedExecutor):
-    """Ask rclpy's executor only for entities that cannot be taken directly.
-
-    One pass costs about a millisecond. A pass runs for nodes with guard conditions or waitables
-    (such as actions), and once for all nodes after entities were created or destroyed: publishers
-    and subscriptions report incompatible QoS through waitables too, but only then.
+    As long as the process is plain, the engine takes its work, and this executor only keeps its
+    nodes and tasks.
     """
 
-    current: Any
-    _core: SessionCore
+    def __init__(self, core: SessionCore, process: Process) -> None:
+        self._core, self._process = core, process
+        super().__init__(context=core.context)
 
-    def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
-        self._changed = True
-        self._wait_set_nodes: list[Node] = []
-        super().__init__(**options)
-
-    def __del__(self) -> None:
-        # An interrupt may have come while it was made, or it is collected after its parts.
-        with suppress(AttributeError, InvalidHandle):
-            super().__del__()
-
-    def get_nodes(self) -> list[Node]:
-        """Return the nodes whose processes have a thread for them, in order of creation.
-
-        rclpy's own answer comes from an unordered set.
-        """
-        return [
-            state.node
-            for state in self._core.states()
-            if state.spinning and state.process.has_thread()
-        ]
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401 - rclpy's own signature
+        """Run a callback or coroutine as soon as what is running has ended."""
+        task = super().create_task(callback, *args, **kwargs)
+        self._core.virtual.task_made(self._process)
+        return task
 
     def wake(self) -> None:
         """Note that entities were made or destroyed."""
-        self._changed = True
+        self._core.virtual.entities_changed()
         super().wake()
 
-    def can_execute(self, entity: Any) -> bool:  # noqa: ANN401 - rclpy's own signature
-        """Keep from rclpy's wait set what is taken directly."""
-        return not isinstance(entity, _TAKEN_DIRECTLY) and bool(super().can_execute(entity))
 
-    def ask_rclpy(self) -> bool:
-        """Make one pass of rclpy's own wait set; return whether anything came of it."""
-        nodes = self._nodes_for_wait_set()
-        progress = False
-        self._cb_iter = None  # a pass that was left when a callback waited is over
-        while nodes:
-            try:
-                handler, entity, node = self.wait_for_ready_callbacks(timeout_sec=0, nodes=nodes)
-            except TimeoutException:
-                break
-            self._handle(handler, entity, node)
-            progress = progress or handler.done()
-            nodes = [node for node in nodes if node in self.get_nodes()]
-        return progress
+# The hooks.
 
-    def forget_passes(self) -> None:
-        """Let go of a pass that was interrupted."""
-        self._cb_iter = None
-        # rclpy would take what was interrupted for running, for ever.
-        self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
 
-    def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
-        self._core.callback_ran(entity, node)
-        return super()._make_handler(entity, node, take)
+def _watch_handlers(original: Callable[..., Task]) -> Callable[..., Task]:
+    @wraps(original)
+    def make_handler(
+        executor: Executor, entity: Entity, node: Node, take: Callable[..., Any]
+    ) -> Task:
+        core, engine = core_of(node), _engine_here()
+        if core is None or engine is not core.virtual:
+            return original(executor, entity, node, take)
+        call, taking = core.virtual.observe(entity, node, take)
+        task = original(executor, entity, node, taking)
+        task._rosbeat_call = call
+        return task
 
-    def _handle(self, handler: Task, entity: Entity, node: Node) -> None:
-        state = self._core.state_of(node)
-        if state is None:
+    return make_handler
+
+
+def _watch_tasks(original: Callable[..., Task]) -> Callable[..., Task]:
+    @wraps(original)
+    def create_task(executor: Executor, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401 - rclpy's own
+        task = original(executor, callback, *args, **kwargs)
+        engine = _engine_here()
+        if engine is not None and engine.current is not None:
+            creator = engine.current
+            task._rosbeat_call = call = Call(creator.process, creator.state)
+            call.label = engine.task_label(creator, callback_name(callback))
+        return task
+
+    return create_task
+
+
+def _watch_steps(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def step(task: Task) -> None:
+        engine = _engine_here()
+        call: Call | None = task.__dict__.get("_rosbeat_call")
+        if engine is None or call is None or engine.current is call:
+            original(task)
             return
-        call = self.current = Call(state.process, state)
-        error: BaseException | None = None
+        caller = engine.current
+        assert caller is not None
+        call.ident = caller.ident
+        engine.current = call
         try:
-            handler()
-        except NOT_OF_CALLBACKS:
-            raise
-        except BaseException as stop:
-            error = stop
-            handler.cancel()
+            original(task)
         finally:
-            self._end_call(call)
-        error = error or handler.exception()
-        if error is not None:
-            self._raised(call, waitable_name(entity), error)
+            engine.end_step(call, caller)
+            if task.done() and task._exception is not None:
+                call.process.failure = (task._exception, call)
 
-    def _end_call(self, call: Call) -> None:
-        raise NotImplementedError
+    return step
 
-    def _raised(self, call: Call, name: str, error: BaseException) -> None:
-        raise NotImplementedError
 
-    def _nodes_for_wait_set(self) -> list[Node]:
-        if not self._changed and not self._wait_set_nodes:
-            return []
-        nodes = self.get_nodes()
-        if not self._changed:
-            return [node for node in self._wait_set_nodes if node in nodes]
-        self._changed = False
-        self._wait_set_nodes = list(_with_waitables(self._core.states()))
-        return nodes
+def _give_way(original: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(original)
+    def wait_for_ready_callbacks(executor: Executor, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        engine = _engine_here()
+        if engine is not None:
+            # Each process does one thing in turn, as they do when they run side by side.
+            engine.give_way_if_others_can_run()
+        return original(executor, *args, **kwargs)
+
+    return wait_for_ready_callbacks
+
+
+def _in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
+    @wraps(original)
+    def get_nodes(executor: Executor) -> list[Node]:
+        nodes = original(executor)
+        core = getattr(executor.context, "session_core", None)
+        if core is None or core.live is not None:
+            return nodes
+        states = [(core.state_of(node), node) for node in nodes]
+        known = [state for state, _ in states if state and not (state.paused or state.ended)]
+        known.sort(key=lambda state: state.number)
+        return [*(state.node for state in known), *(node for state, node in states if state is None)]
+
+    return get_nodes
+
+
+def _watch_trigger(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def trigger(guard: GuardCondition) -> None:
+        original(guard)
+        core = getattr(guard._context, "session_core", None)
+        if core is not None:
+            core.virtual.notify(id(guard.handle))
+
+    return trigger
+
+
+def _watch_timers(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def init(timer: Timer, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - rclpy's own
+        original(timer, *args, **kwargs)
+        engine = _engine_here()
+        if engine is not None:
+            engine.timers[id(timer.handle)] = timer
+
+    return init
+
+
+def _watch_nodes(original: Callable[..., Any], spins: bool) -> Callable[..., Any]:
+    @wraps(original)
+    def change(executor: Executor, node: Node) -> Any:  # noqa: ANN401 - whether it was added, or None
+        result = original(executor, node)
+        core = core_of(node)
+        if core is not None and core.live is None:
+            core.executor_changed(executor, node, spins)
+        return result
+
+    return change
+
+
+def _choose_threads(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def init(executor: Executor, num_threads: int | None = None, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
+        if num_threads is None and _engine_here() is not None:
+            num_threads = DEFAULT_THREADS
+        original(executor, num_threads, **options)
+
+    return init
+
+
+def _global_executor(original: Callable[[], Executor]) -> Callable[[], Executor]:
+    @wraps(original)
+    def get_global_executor() -> Executor:
+        engine = _engine_here()
+        if engine is None or engine.current is None:
+            return original()
+        process = engine.current.process
+        if process.global_executor is None:
+            process.global_executor = executor = SingleThreadedExecutor()
+
+            def reset() -> None:
+                executor.shutdown()
+                process.global_executor = None
+
+            rclpy.get_default_context().on_shutdown(reset)
+        return process.global_executor
+
+    return get_global_executor
+
+
+def _install() -> None:
+    implementation = _Implementation()
+    rclpy.executors._rclpy = implementation
+    message_waiting._rclpy = implementation
+    Executor._make_handler = _watch_handlers(Executor._make_handler)
+    Executor.create_task = _watch_tasks(Executor.create_task)
+    Executor.wait_for_ready_callbacks = _give_way(Executor.wait_for_ready_callbacks)
+    Executor.get_nodes = _in_order(Executor.get_nodes)
+    Executor.add_node = _watch_nodes(Executor.add_node, True)
+    Executor.remove_node = _watch_nodes(Executor.remove_node, False)
+    MultiThreadedExecutor.__init__ = _choose_threads(MultiThreadedExecutor.__init__)
+    Task.__call__ = _watch_steps(Task.__call__)
+    GuardCondition.trigger = _watch_trigger(GuardCondition.trigger)
+    Timer.__init__ = _watch_timers(Timer.__init__)
+    rclpy.get_global_executor = _global_executor(rclpy.get_global_executor)
+
+
+_install()  # at import, so exactly once in a process
 
 
 def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
@@ -268,10 +379,3 @@ def waitable_label(entity: Entity, node: Node) -> tuple[str, str, str]:
         return "event", waitable_name(entity), source
     kind = "guard condition" if isinstance(entity, GuardCondition) else "waitable"
     return kind, waitable_name(entity), ""
-
-
-def _with_waitables(states: Iterable[NodeState]) -> Iterable[Node]:
-    for node in (state.node for state in states if state.spinning):
-        ours = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
-        if ours or any(True for _ in node.guards):
-            yield node
