@@ -239,7 +239,7 @@ def spawn_and_run(ros, file):
     ["rclpy.spin(node)", "rclpy.spin_once(node, timeout_sec=0)"],
 )
 def test_a_program_that_spins_for_ever_and_no_time_passes(ros, program, says, monkeypatch, spin):
-    monkeypatch.setattr("rosbeat.ros.virtual_time.MOST_FIRINGS", 200)
+    monkeypatch.setattr("rosbeat.ros.schedule.MOST_FIRINGS", 200)
     text = STUBBORN.replace("{spin}", spin).replace("{callback}", "rclpy.shutdown")
     beside = ros.spawn(program(SENSOR.replace("{ending}", "shutdown"), "beside.py"))
     file = program(text)

@@ -67,7 +67,7 @@ def test_a_constructor_that_calls_is_explained(ros, says):
 
 
 def test_tasks_that_make_tasks_for_ever_are_stopped(ros, says, monkeypatch):
-    monkeypatch.setattr("rosbeat.ros.virtual_time.MOST_TURNS", 1_000)
+    monkeypatch.setattr("rosbeat.ros.schedule.MOST_TURNS", 1_000)
 
     def do(node):
         node.executor.create_task(do, node)

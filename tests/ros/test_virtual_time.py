@@ -105,7 +105,7 @@ def test_a_circle_names_its_nodes_and_leaves_the_session_usable(ros, says):
 
 
 def test_a_circle_that_doubles_is_found_too(ros, says, monkeypatch):
-    monkeypatch.setattr("rosbeat.ros.virtual_time.MOST_FOLLOWERS", 5_000)
+    monkeypatch.setattr("rosbeat.ros.engine.MOST_FOLLOWERS", 5_000)
     ros.add(partial(Relay, "ping", "a", "b", copies=2))
     ros.add(partial(Relay, "pong", "b", "a", copies=2))
     ros.add(partial(Talker, topic="a"))

@@ -349,6 +349,7 @@ def _imported_by(names: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 def _is_library(names: dict[str, Any]) -> bool:
     file = names.get("__file__")
-    if names.get("__name__") == "__main__":
-        return False  # a page: its cells are of the learner's
-    return not isinstance(file, str) or is_foreign(file)
+    if isinstance(file, str) and names.get("__name__") != "__main__":
+        return is_foreign(file)
+    # A page, or code that was run from a text; a module in C has a specification.
+    return getattr(names.get("__spec__"), "origin", None) in ("built-in", "frozen")

@@ -35,6 +35,7 @@ from rclpy.task import Task
 from rclpy.timer import Timer
 from weakref import WeakValueDictionary
 
+from rosbeat.errors import EndlessChainError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
 from rosbeat.ros.errors import never_made
@@ -483,6 +484,8 @@ class VirtualTime(Switchboard):
 
     def hand_over(self, process: Process) -> None:
         """Let rclpy's own executor run a process from now on."""
+        if process.is_handed_over:
+            return
         process.is_handed_over = True
         process.is_direct = False
         process.pending.clear()
@@ -549,7 +552,12 @@ class VirtualTime(Switchboard):
     def _count_turn(self, call: Call) -> None:
         program = call.process.program
         name = call.node or (program.name if program is not None else "A node")
-        self._chain.wakes(name, call.name)
+        try:
+            self._chain.wakes(name, call.name)
+        except EndlessChainError:
+            if program is not None:
+                program.kill()  # it would never let the others run
+            raise
 
     def _advance_to_next(self) -> bool:
         """Jump to what comes next: timers and sleepers of an instant, then QoS deadlines.

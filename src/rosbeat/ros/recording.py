@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from rclpy.clock import Clock
 from rclpy.duration import Duration
+from rclpy.event_handler import EventHandler
 from rclpy.exceptions import (
     InvalidHandle,
     InvalidTopicNameException,
@@ -648,6 +649,24 @@ def _install() -> None:
         told = infos(node, *args, **kwargs)
         return told if core_of(node) is None else as_written(told)
 
+    guard, waitable = Node.create_guard_condition, Node.add_waitable
+
+    @wraps(guard)
+    def watched_guard(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - passed on
+        made = guard(node, *args, **kwargs)
+        core = core_of(node)
+        if core is not None:
+            core.waitable_made(node)
+        return made
+
+    @wraps(waitable)
+    def watched_waitable(node: Node, added: Any) -> None:  # noqa: ANN401 - any waitable
+        waitable(node, added)
+        core = core_of(node)
+        if core is not None and not isinstance(added, EventHandler):
+            core.waitable_made(node)
+
+    Node.create_guard_condition, Node.add_waitable = watched_guard, watched_waitable
     Node.__init__ = _watch_birth(Node.__init__)
     Node.destroy_node, Node.get_logger = watched_destroy, watched_logger
     Node._get_info_by_topic = watched_infos

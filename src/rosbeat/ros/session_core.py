@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
 from functools import partial
+from inspect import iscoroutine
 from itertools import count
 from traceback import walk_tb
 from types import FrameType
@@ -280,6 +281,8 @@ class SessionCore:
         process.is_over = True
         for call in [call for call in process.calls if call.wait is not None]:
             self.virtual.break_off(call)
+        if process.executor is not None:
+            _end_coroutines(process.executor)
 
     def destroy(self, state: NodeState) -> None:
         """Destroy a node, whole or half-made."""
@@ -353,6 +356,11 @@ class SessionCore:
             entity._timer.callback = entity._event.set
         else:
             self._watch(state, kind, entity)
+
+    def waitable_made(self, node: Node) -> None:
+        """Let rclpy's own executor run a node that has guard conditions or waitables."""
+        self.entity_begins(node)
+        self.virtual.hand_over(self._states[node].process)
 
     def node_ends(self, node: Node) -> None:
         """Forget a node that is about to be destroyed."""
@@ -664,6 +672,7 @@ class SessionCore:
         for process in self._processes:
             for executor in (process.executor, process.global_executor):
                 if executor is not None:
+                    _end_coroutines(executor)
                     with suppress(Exception):  # a program may have destroyed it
                         executor.shutdown(timeout_sec=0)
         for entity in list(self.action_ends):
@@ -889,6 +898,14 @@ def full_topic(call: str, topic: object) -> str:
             "with a digit, as in `room_1/temperature`.",
         ) from None
     return name
+
+
+def _end_coroutines(executor: Executor) -> None:
+    """Close the coroutines that wait, whose `finally` blocks run then, as at the end of Python."""
+    for task, _, _ in list(executor._tasks):
+        if iscoroutine(task._handler) and not task.executing():
+            with suppress(Exception):  # what a `finally` block of a learner's raises
+                task._handler.close()
 
 
 def _innermost(interrupt: KeyboardInterrupt) -> FrameType | None:

@@ -48,6 +48,7 @@ def _spin(original: Callable[..., None]) -> Callable[..., None]:
             _spin_until_interrupt(node, executor or _executor_for(node))
             return
         if _is_simulated(core) and _may_spin(core):
+            core.virtual.give_way()  # in a loop after a shutdown, `spin` returns at once
             original(node, executor)
         else:
             _refuse_in_constructor(node)
@@ -87,6 +88,8 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
     ) -> None:
         core: _Core = core_of(node)
         if core is None or _is_simulated(core):
+            if core is not None:
+                core.virtual.give_way()
             original(node, future, executor, timeout_sec)
             return
         core.refuse_in_callback("rclpy.spin_until_future_complete")
