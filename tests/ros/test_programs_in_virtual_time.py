@@ -4,7 +4,7 @@ import importlib
 import signal
 import sys
 import threading
-from textwrap import dedent
+from textwrap import dedent, indent
 
 import pytest
 import rclpy
@@ -151,58 +151,58 @@ def test_a_function_of_the_page_is_a_program_too(ros, capsys):
 
 # Spinning in a thread, and spinning for ever.
 
+THREADED = """
+import threading, time
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node("threaded")
+    node.create_timer(0.5, lambda: node.get_logger().info("beat"))
+    {rest}
+"""
 SPINS = {
-    "rate": """
+    "rate": ("""
         threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
         rate = node.create_rate(2)
         while rclpy.ok():
             rate.sleep()
-    """,
-    "executor": """
+            print("tick")
+    """, [0.5, 1.0, 1.5], None),
+    "executor": ("""
         executor = SingleThreadedExecutor()
         executor.add_node(node)
         thread = threading.Thread(target=lambda: executor.spin())
         thread.start()
         thread.join()
-    """,
-    "once": """
+    """, [0.5, 1.0, 1.5], None),
+    "once": ("""
         thread = threading.Thread(target=lambda: rclpy.spin_once(node))
         thread.start()
-        try:
-            time.sleep(5)
-        except Exception:
-            pass
-    """,
-}
+        time.sleep(1)
+    """, [0.5], 0),
+    "many": ("""
+        done = threading.Event()
+        node.create_timer(1.2, done.set)
+        threading.Thread(target=rclpy.spin, args=(node,)).start()
+        print(done.wait(1.0), done.wait(1.0), threading.current_thread().name)
+        rclpy.shutdown()
+    """, [0.5, 1.0], 0),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize("spins", SPINS)
-def test_a_program_that_spins_in_a_thread_is_refused(ros, program, monkeypatch, capsys, spins):
-    # Python's own prints nothing when SystemExit ends a thread; that of pytest counts it.
-    monkeypatch.setattr(threading, "excepthook", threading.__excepthook__)
+@pytest.mark.parametrize("name", SPINS)
+def test_a_program_that_spins_in_a_thread_runs(ros, program, capsys, name):
+    rest, beats, code = SPINS[name]
     before = threading.enumerate()
-    head = """
-    import threading, time
-    import rclpy
-    from rclpy.executors import SingleThreadedExecutor
-
-    def main():
-        rclpy.init()
-        node = rclpy.create_node("threaded")
-        node.create_timer(0.5, lambda: print("never"))
-    """
-    threaded = ros.spawn(program(dedent(head) + dedent(SPINS[spins]).replace("\n", "\n    ")))
-    ros.run(1)
-    for thread in set(threading.enumerate()).difference(before):
-        thread.join()
-    assert not ros.is_live
-    assert threaded.returncode == 1
-    assert capsys.readouterr().err == threaded.stderr
-    assert "SessionError: program spins its node in a separate thread." in threaded.stderr
-    assert "What it means:" in threaded.stderr
-    assert "What to try:" in threaded.stderr
-    (fault,) = ros.observation().faults
-    assert (fault.node, fault.kind) == ("program", "SessionError")
+    text = THREADED.replace("    {rest}", indent(dedent(rest), "    "))
+    threaded = ros.spawn(program(text))
+    ros.run(1.6)
+    assert [line.time for line in ros.logs()] == beats
+    assert threaded.returncode == code
+    assert ("tick" in capsys.readouterr().out) == (name == "rate")
+    assert [one for one in threading.enumerate() if one.ident > 2**16] == before
 
 
 STUBBORN = """
@@ -234,15 +234,36 @@ def spawn_and_run(ros, file):
     ros.run(1)
 
 
-@pytest.mark.parametrize(
-    "spin",
-    ["rclpy.spin(node)", "rclpy.spin_once(node, timeout_sec=0)"],
-)
-def test_a_program_that_spins_for_ever_and_no_time_passes(ros, program, says, monkeypatch, spin):
-    monkeypatch.setattr("rosbeat.ros.schedule.MOST_FIRINGS", 200)
-    text = STUBBORN.replace("{spin}", spin).replace("{callback}", "rclpy.shutdown")
+POLLING = """
+import time
+import rclpy
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node("polling")
+    node.create_timer(0.5, lambda: node.get_logger().info("beat"))
+    begin = time.monotonic()
+    while time.monotonic() - begin < 2.1:
+        {look}
+    rclpy.shutdown()
+"""
+
+
+@pytest.mark.parametrize("look", ["rclpy.spin_once(node, timeout_sec=0)", "pass"])
+def test_a_loop_that_looks_without_waiting_lets_time_pass(ros, program, look):
     beside = ros.spawn(program(SENSOR.replace("{ending}", "shutdown"), "beside.py"))
-    file = program(text)
+    polling = ros.spawn(program(POLLING.replace("{look}", look)))
+    ros.run(3)
+    assert (polling.returncode, beside.returncode) == (0, None)
+    beats = [round(line.time, 2) for line in ros.logs("polling")]
+    assert beats == ([] if look == "pass" else [0.5, 1.0, 1.5, 2.0])
+
+
+def test_a_program_that_spins_for_ever_and_no_time_passes(ros, program, says, monkeypatch):
+    monkeypatch.setattr("rosbeat.ros.schedule.MOST_FIRINGS", 200)
+    text = STUBBORN.replace("{spin}", "rclpy.spin_until_future_complete(node, done)")
+    file = program(text.replace("{callback}", "bool"))
+    beside = ros.spawn(program(SENSOR.replace("{ending}", "shutdown"), "beside.py"))
     with pytest.raises(EndlessChainError) as caught:
         spawn_and_run(ros, file)
     says(caught.value, "no time passed")
@@ -256,7 +277,6 @@ def test_a_program_that_spins_for_ever_and_no_time_passes(ros, program, says, mo
     [
         "rclpy.spin(node)",
         "press_once(); rclpy.spin(node)",
-        "press_once(); rclpy.spin_until_future_complete(node, done)",
     ],
 )
 def test_interrupt_reaches_the_cell_whatever_a_program_catches(ros, program, spin):

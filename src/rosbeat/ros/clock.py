@@ -177,7 +177,7 @@ _TOO_LONG = 2**63 / 1e9
 #: What Python's own modules have imported by name.
 _LIBRARY = (time, threading, queue, message_waiting)
 _REAL = {name: getattr(time, name) for name in (
-    "sleep", "time", "time_ns", "monotonic", "monotonic_ns", "perf_counter", "perf_counter_ns",
+    "time", "time_ns", "monotonic", "monotonic_ns", "perf_counter", "perf_counter_ns",
 )}  # fmt: skip
 
 
@@ -194,13 +194,14 @@ class VirtualNames:
     ) -> None:
         self._virtual, self._entry_of = virtual, entry_of
         self._wait_for_message = message_waiting.wait_for_message
+        self._real_sleep = time.sleep  # a test may have put something in its place
         clocks = {
             "time": (self._wall, 1e9), "time_ns": (self._wall, 0),
             "monotonic": (self._steady, 1e9), "monotonic_ns": (self._steady, 0),
             "perf_counter": (self._steady, 1e9), "perf_counter_ns": (self._steady, 0),
         }  # fmt: skip
         self._places: dict[Any, object] = {
-            _REAL["sleep"]: self.sleep,
+            self._real_sleep: self.sleep,
             threading.Lock: threads.make_lock,
             threading._allocate_lock: threads.make_lock,  # type: ignore[attr-defined]
             threading.RLock: threads.make_reentrant_lock,
@@ -227,7 +228,7 @@ class VirtualNames:
         """Sleep, as `time.sleep` does; in the code of a node, in virtual time."""
         own = sys._getframe(1).f_code.co_filename.startswith(_OWN)
         if own or not self._virtual.in_callback:
-            _REAL["sleep"](seconds)
+            self._real_sleep(seconds)
             return
         span = seconds if isinstance(seconds, float) else index(seconds)  # as Python does it
         if 0 <= span < _TOO_LONG:
@@ -236,7 +237,7 @@ class VirtualNames:
             else:
                 self._virtual.sleep(span)
         else:
-            _REAL["sleep"](seconds)  # which refuses it
+            self._real_sleep(seconds)  # which refuses it
 
     def wait_for_message(
         self,

@@ -57,8 +57,13 @@ LONGEST_WAIT = 3600 * 1_000_000_000
 LONGEST_START = 600 * 1_000_000_000
 #: A loop that looks at the clock or at its queues again and again lets so much time pass, in
 #: nanoseconds, after so many looks at one instant: on a robot, each look takes time.
-POLL_NS, MOST_POLLS, MOST_READS = 1_000_000, 100, 1_000
+POLL_NS, MOST_POLLS, MOST_READS = 1_000_000, 3, 1_000
+#: The most that a loop lets pass from one look to the next while it finds nothing.
+LONGEST_POLL_NS = 20_000_000
 
+#: Reasons of waits that are no waits to the one who reads the record of a run.
+_GIVES_WAY = ("turn", "poll")
+_IDLE = ("spin", *_GIVES_WAY)
 #: What ends more than the callback in which it is raised.
 NOT_OF_CALLBACKS = (KeyboardInterrupt, GreenletExit, DeadlinePassed)
 
@@ -310,24 +315,36 @@ class VirtualTime(Switchboard):
         instant, count = call.reads
         call.reads = (self.now, count + 1 if instant == self.now else 1)
         if count >= MOST_READS and instant == self.now:
-            call.reads = (-1, 0)
             self.block("poll", self.now + POLL_NS, idle=True)
 
-    def polled(self) -> None:
-        """Note that code of a node looked at the clock or at its queues without waiting.
+    def polled(self, next_ns: int | None = None) -> None:
+        """Note that code of a node looked at its queues without waiting, and found nothing.
 
-        A loop of such looks lets time pass: on a robot, each of them takes a moment.
+        A loop of such looks lets time pass: on a robot, each of them takes a moment. The longer
+        nothing comes, the more.
+
+        Args:
+            next_ns: When the next of its own timers is due, in nanoseconds.
         """
         call = self.current
         if call is None:
             return
         instant, count = call.polled
         call.polled = (self.now, count + 1 if instant == self.now else 1)
-        if count >= MOST_POLLS and instant == self.now:
-            call.polled = (-1, 0)
-            self.block("poll", self.now + POLL_NS, idle=True)
-        elif count:
+        if count < MOST_POLLS or instant != self.now:
             self.give_way("poll")
+            return
+        call.pause_ns = min(max(POLL_NS, 2 * call.pause_ns), LONGEST_POLL_NS)
+        times = [self.now + call.pause_ns, next_ns, self.schedule.next_due(self.now)]
+        until = min(time for time in times if time is not None and time > self.now)
+        self.block("poll", until, idle=True)
+        call.polled = (self.now, MOST_POLLS)
+
+    def found(self) -> None:
+        """Note that code of a node looked at its queues and found something."""
+        call = self.current
+        if call is not None:
+            call.polled, call.pause_ns = (-1, 0), 0
 
     def _block_main(self, wait: Wait) -> None:
         call, label, until, met = self.current, self.calling, wait.until_ns, wait.met
@@ -380,7 +397,7 @@ class VirtualTime(Switchboard):
             process.refresh()
 
     def _call_resumed(self, call: Call, wait: Wait) -> None:
-        if self.now > wait.began_ns and not call.idle and wait.reason not in ("spin", "turn", "poll"):
+        if self.now > wait.began_ns and not call.idle and wait.reason not in _IDLE:
             self._waits.append(
                 WaitRecord(wait.began_ns, self.now, call.node, call.name, wait.reason)
             )
@@ -481,6 +498,7 @@ class VirtualTime(Switchboard):
                             self.schedule.add_timer(entry, self.now)
         else:
             self.hand_over(process)
+            self._revive(process)
 
     def hand_over(self, process: Process) -> None:
         """Let rclpy's own executor run a process from now on."""
@@ -537,7 +555,7 @@ class VirtualTime(Switchboard):
             if self.elsewhere:
                 self.elsewhere.popleft()()
             elif (self._woken or self._looking) and (wait := self._over()) is not None:
-                if wait.call is not None and wait.began_ns == self.now:
+                if wait.call is not None and wait.reason in _GIVES_WAY:
                     self._count_turn(wait.call)
                 self._resume(wait)
             elif self._due:
@@ -552,8 +570,10 @@ class VirtualTime(Switchboard):
     def _count_turn(self, call: Call) -> None:
         program = call.process.program
         name = call.node or (program.name if program is not None else "A node")
+        instant, count = call.turns
+        call.turns = (self.now, count + 1 if instant == self.now else 1)
         try:
-            self._chain.wakes(name, call.name)
+            self._chain.wakes(name, call.name, call.turns[1])
         except EndlessChainError:
             if program is not None:
                 program.kill()  # it would never let the others run

@@ -128,13 +128,13 @@ class ChainGuard:
 
     def __init__(self) -> None:
         self.depth = 0
-        self._firings = self._wakes = self._turns = 0
+        self._firings = self._turns = 0
         self._followers = 0
         self._trail: deque[str] = deque(maxlen=_TRAIL)
 
     def instant_ends(self) -> None:
         """Forget the counts of this instant: time passes, so what happened before is no circle."""
-        self._firings = self._followers = self._wakes = self._turns = 0
+        self._firings = self._followers = self._turns = 0
 
     def timer_fires(self, node: str, callback: str) -> None:
         """Begin a chain at a timer.
@@ -153,15 +153,13 @@ class ChainGuard:
                 "Give create_timer a period above zero, in seconds.",
             )
 
-    def wakes(self, name: str, callback: str) -> None:
-        """Check a call that goes on at the instant at which it began to wait.
+    def wakes(self, name: str, callback: str, count: int) -> None:
+        """Check a call that has gone on so many times at one instant.
 
         Raises:
             EndlessChainError: If calls go on without end at one instant.
         """
-        self._wakes += 1
-        if self._wakes > MOST_FIRINGS:
-            self._wakes = 0
+        if count > MOST_FIRINGS:
             raise EndlessChainError(
                 f"{callback} of {name} waited {MOST_FIRINGS} times while no time passed.",
                 "The call is in a loop, and each wait ends immediately: either its timeout is "

@@ -667,14 +667,14 @@ class SessionCore:
         self.go_virtual()
         self._last_graph = self.graph()
         self.virtual.close()
-        for state in reversed(self.states()):
-            self.destroy(state)
         for process in self._processes:
             for executor in (process.executor, process.global_executor):
                 if executor is not None:
                     _end_coroutines(executor)
                     with suppress(Exception):  # a program may have destroyed it
                         executor.shutdown(timeout_sec=0)
+        for state in reversed(self.states()):
+            self.destroy(state)
         for entity in list(self.action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()

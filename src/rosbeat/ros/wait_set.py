@@ -35,7 +35,9 @@ if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity
     from rosbeat.ros.session_core import SessionCore
 
-_KINDS = ("subscription", "guard_condition", "timer", "client", "service")
+_WORK = ("subscription", "timer", "client", "service")
+#: A guard condition may only say that the wait set has to be made anew.
+_KINDS = (*_WORK, "guard_condition")
 #: Threads of a `MultiThreadedExecutor()` in virtual time: the same on each machine.
 DEFAULT_THREADS = 4
 
@@ -89,10 +91,13 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclp
             super().wait(timeout_ns)
             return
         self._look(engine)
-        if self._is_ready():
+        if any(self.get_ready_entities(kind) for kind in _WORK):
+            engine.found()
             return
         if timeout_ns == 0:
-            engine.polled()
+            engine.polled(self.next_timer(engine.now)[0])
+            return
+        if self.get_ready_entities("guard_condition"):
             return
         engine.wait_in_set(self, timeout_ns)
         if not self.has_waitables:
@@ -150,9 +155,6 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclp
             if timer is not None:
                 _move(timer)
         super().wait(0)
-
-    def _is_ready(self) -> bool:
-        return any(self.get_ready_entities(kind) for kind in _KINDS)
 
     def _add_again(self) -> None:
         handles, self._handles = self._handles, {kind: [] for kind in _KINDS}
@@ -247,10 +249,13 @@ def _watch_steps(original: Callable[..., None]) -> Callable[..., None]:
         engine.current = call
         try:
             original(task)
+            if task.done() and task._exception is not None:
+                call.process.failure = task._exception, call
+        except BaseException as error:  # what no task keeps, such as SystemExit
+            call.process.failure = error, call
+            raise
         finally:
             engine.end_step(call, caller)
-            if task.done() and task._exception is not None:
-                call.process.failure = (task._exception, call)
 
     return step
 

@@ -54,6 +54,8 @@ class Call:
         ident: The number of its simulated thread; 0 for the main thread of a process.
         polled: When it has last looked at its queues without waiting, and how often at that instant.
         reads: The same of the clocks of Python.
+        turns: When it has last let others go first, and how often at that instant.
+        pause_ns: How much time it has let pass since its last look that found nothing.
     """
 
     process: Process
@@ -70,6 +72,8 @@ class Call:
     ident: int = 0
     polled: tuple[int, int] = (-1, 0)
     reads: tuple[int, int] = (-1, 0)
+    turns: tuple[int, int] = (-1, 0)
+    pause_ns: int = 0
 
     @property
     def node(self) -> str:
@@ -295,7 +299,8 @@ class Switchboard:
                 self._call_ends(call)
                 self._forget_call(call)
                 self.current = None
-                if not call.broken:  # else whoever has ended it goes on
+                # Whoever has ended it goes on, if it was ended; so does who collects it as garbage.
+                if not call.broken and self.running:
                     getcurrent().parent = self._next_driver()
 
         wait = Wait(call, greenlet(begin, self._main), "start", self.now)
