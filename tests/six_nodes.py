@@ -10,7 +10,7 @@ from std_msgs.msg import Float32, String
 from std_srvs.srv import Trigger
 
 from digests import digest
-from nodes import Relay, Server, Speaker
+from nodes import SECOND, Relay, Server, Speaker, since_start
 from rosbeat import Session
 from rosbeat.records import Observation
 
@@ -32,7 +32,7 @@ class Walker(Node):
     def step(self) -> None:
         self.value += random.uniform(-0.5, 0.5)
         self.walk.publish(Float32(data=self.value))
-        if self.get_clock().now().nanoseconds == 3_000_000_000:
+        if since_start(self) == 3 * SECOND:
             self.create_timer(0.07, lambda: self.news.publish(String(data=f"{self.value:.3f}")))
 
 

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from test_msgs.action import Fibonacci
 
+from nodes import since_start
 from rosbeat import Session
 from rosbeat.errors import SessionError
 
@@ -70,7 +71,7 @@ class Sender(Node):
         self.goal: Any = None
 
     def note(self, what: Any) -> None:
-        seconds = self.get_clock().now().nanoseconds / 1e9
+        seconds = since_start(self) / 1e9
         self.log.append((int(seconds) if seconds == int(seconds) else seconds, what))
 
     def send(self, order: int) -> None:

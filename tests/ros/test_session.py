@@ -35,9 +35,10 @@ class Endless(Node):
         self.create_timer(2.0, self.tick)
 
     def tick(self):
-        end = time.monotonic() + self.seconds
+        # Of the system: the functions that tell the time show virtual time here.
+        end = time.clock_gettime(time.CLOCK_MONOTONIC) + self.seconds
         while True:
-            if time.monotonic() > end:
+            if time.clock_gettime(time.CLOCK_MONOTONIC) > end:
                 signal.raise_signal(signal.SIGINT)
 
 

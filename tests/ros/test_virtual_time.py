@@ -1,21 +1,20 @@
 """Time jumps from one deadline to the next, all that is due runs in order, and chains end."""
 
+from dataclasses import dataclass
 from functools import partial
-from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.clock import Clock, ClockType
-from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from nodes import SECOND, Doer, Listener, Relay, Talker, Ticker
 from rosbeat import Session
 from rosbeat.errors import EndlessChainError
-from rosbeat.ros import virtual_time
-from rosbeat.ros.virtual_time import Agenda
+from rosbeat.ros import schedule
+from rosbeat.ros.schedule import ChainGuard, Schedule
 
 
 def test_a_timer_fires_once_a_period_and_the_end_belongs_to_the_run(ros):
@@ -72,23 +71,25 @@ def test_a_shorter_period_takes_effect_with_a_reset(ros):
     assert ticker.times() == [SECOND * n + SECOND // 2 for n in range(1, 5)]
 
 
-def test_a_timer_on_the_wall_clock_waits_for_live_mode(ros, capsys):
-    class Wall(Node):
+@pytest.mark.parametrize("clock_type", [ClockType.ROS_TIME, ClockType.STEADY_TIME, ClockType.SYSTEM_TIME])
+def test_every_clock_of_a_node_shows_virtual_time(ros, clock_type):
+    class Other(Node):
         def __init__(self):
-            super().__init__("wall")
-            self.seen = 0
-            clock = Clock(clock_type=ClockType.STEADY_TIME)
-            self.create_timer(0.01, self.tick, clock=clock)
+            super().__init__("other")
+            self.clock, self.seen = Clock(clock_type=clock_type), []
+            self.begin = self.clock.now()
+            assert self.begin.clock_type == clock_type
+            assert self.begin.nanoseconds > 0
+            self.create_timer(2.0, self.tick, clock=self.clock)
 
         def tick(self):
-            self.seen += 1
+            self.seen.append((self.clock.now() - self.begin).nanoseconds)
 
-    wall = ros.add(Wall)
-    assert "fires only while the session is live" in capsys.readouterr().out
-    ros.run(100)
-    assert wall.seen == 0
+    other = ros.add(Other)
+    ros.run(7)
+    assert other.seen == [2 * SECOND, 4 * SECOND, 6 * SECOND]
     ros.start()
-    assert ros.wait(10, until=lambda: wall.seen > 2)
+    assert ros.wait(10, until=lambda: len(other.seen) > 3)
 
 
 def test_a_circle_names_its_nodes_and_leaves_the_session_usable(ros, says):
@@ -105,7 +106,7 @@ def test_a_circle_names_its_nodes_and_leaves_the_session_usable(ros, says):
 
 
 def test_a_circle_that_doubles_is_found_too(ros, says, monkeypatch):
-    monkeypatch.setattr("rosbeat.ros.engine.MOST_FOLLOWERS", 5_000)
+    monkeypatch.setattr("rosbeat.ros.schedule.MOST_FOLLOWERS", 5_000)
     ros.add(partial(Relay, "ping", "a", "b", copies=2))
     ros.add(partial(Relay, "pong", "b", "a", copies=2))
     ros.add(partial(Talker, topic="a"))
@@ -179,86 +180,79 @@ def test_no_wait_set_is_built_while_nothing_changes(ros, monkeypatch):
     assert len(ros.messages("count")) == 101
 
 
-# Inside: the order of what is due, and the count of what fires at one instant.
+# Inside: the order of what is due, and the count of what fires at one instant. The schedule knows no
+# rclpy, so its timers here are plain objects.
 
 
-class Handle:
-    def __init__(self, wait, canceled=False, destroyed=False):
-        self.wait, self.canceled, self.destroyed = wait, canceled, destroyed
+@dataclass
+class Timer:
+    order: int
+    remaining: int | None
+    is_over: bool = False
+    due_ns: int | None = None
 
-    def __enter__(self):
-        if self.destroyed:
-            raise InvalidHandle("gone")
-
-    def __exit__(self, *_):
-        pass
-
-    def is_timer_canceled(self):
-        return self.canceled
-
-    def time_until_next_call(self):
-        return self.wait
+    def remaining_ns(self):
+        return self.remaining
 
 
-def entry(number, wait, **options):
-    state = SimpleNamespace(spinning=True, ended=False, name=f"/n{number}")
-    label = SimpleNamespace(name="callback", source=f"/t{number}")
-    handle = Handle(wait, **options)
-    timer = SimpleNamespace(clock=SimpleNamespace(move=bool))
-    return SimpleNamespace(
-        number=number, handle=handle, state=state, deadline=None, label=label, entity=timer
-    )
-
-
-def drain(agenda):
+def drain(schedule):
     order = []
-    while agenda.next_deadline(0) is not None:
-        order.append(agenda.pop().number)
+    while schedule.next_due(0) is not None:
+        order.append(schedule.pop().order)
     return order
 
 
 @given(st.lists(st.integers(-5, 20), max_size=20))
-def test_the_agenda_is_ordered_by_deadline_and_creation(waits):
-    agenda = Agenda()
-    for number, wait in enumerate(waits):
-        agenda.add(entry(number, wait), 0)
-    wanted = sorted(range(len(waits)), key=lambda number: (max(0, waits[number]), number))
-    assert drain(agenda) == wanted
+def test_the_schedule_is_ordered_by_time_and_by_when_things_were_set(spans):
+    schedule = Schedule()
+    for number, span in enumerate(spans):
+        schedule.add_timer(Timer(number, span), 0)
+    wanted = sorted(range(len(spans)), key=lambda number: (max(0, spans[number]), number))
+    assert drain(schedule) == wanted
+
+
+def test_sleepers_and_timers_of_an_instant_keep_the_order_in_which_they_were_set():
+    schedule = Schedule()
+    schedule.add(Timer(3, None), 50)
+    schedule.add_timer(Timer(4, 50), 0)
+    schedule.add_timer(Timer(1, 50), 0)
+    schedule.add(Timer(2, None), 50)
+    assert drain(schedule) == [1, 2, 3, 4]
 
 
 def test_a_timer_that_moved_is_there_once():
-    agenda, one = Agenda(), entry(1, 100)
-    agenda.add(one, 0)
-    for wait in (5, 50, 7):
-        one.handle.wait = wait
-        agenda.move(one, 0)
-    assert agenda.next_deadline(0) == 7
-    assert drain(agenda) == [1]
+    schedule, timer = Schedule(), Timer(1, 100)
+    for timer.remaining in (100, 5, 50, 7):
+        schedule.add_timer(timer, 0)
+    assert schedule.next_due(0) == 7
+    assert drain(schedule) == [1]
 
 
-def test_canceled_resting_destroyed_and_ended_timers():
-    agenda = Agenda()
-    canceled, resting = entry(1, 1, canceled=True), entry(2, 2)
-    resting.state.spinning = False
-    ended = entry(4, 4)
-    ended.state.ended = True
-    for one in (canceled, resting, entry(3, 3, destroyed=True), ended):
-        agenda.add(one, 0)
-    assert agenda.next_deadline(0) is None
-    canceled.handle.canceled = False
-    resting.state.spinning = True
-    assert drain(agenda) == [1, 2]
+def test_what_was_dropped_is_not_due():
+    schedule, timer = Schedule(), Timer(1, 100)
+    schedule.add_timer(timer, 0)
+    schedule.drop(timer)
+    assert schedule.next_due(0) is None
+
+
+def test_timers_that_rest_come_back_and_those_that_are_over_do_not():
+    schedule, resting = Schedule(), Timer(1, None)
+    for timer in (resting, Timer(2, 2, is_over=True)):
+        schedule.add_timer(timer, 0)
+    assert schedule.next_due(0) is None
+    resting.remaining = 3
+    assert drain(schedule) == [1]
 
 
 def test_time_that_passes_resets_the_count():
-    guard, timer = virtual_time.ChainGuard(), entry(1, 0)
+    guard = ChainGuard()
 
     def fire(times):
         for _ in range(times):
-            guard.timer_fires(timer)
+            guard.timer_fires("/node", "tick")
 
     for _ in range(3):
-        fire(virtual_time.MOST_FIRINGS)
+        fire(schedule.MOST_FIRINGS)
         guard.instant_ends()
     with pytest.raises(EndlessChainError):
-        fire(virtual_time.MOST_FIRINGS + 1)
+        fire(schedule.MOST_FIRINGS + 1)

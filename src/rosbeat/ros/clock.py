@@ -96,7 +96,7 @@ class VirtualClock(Clock):
 
     @property
     def _start_ns(self) -> int:
-        steady = self._clock_type is ClockType.STEADY_TIME
+        steady = self._clock_type == ClockType.STEADY_TIME
         return _STEADY_NS if steady else self.keeper.start_ns
 
     def _override(self, active: bool) -> None:
@@ -138,7 +138,7 @@ def make_clock(keeper: VirtualTime, clock_type: ClockType = ClockType.ROS_TIME) 
     """Return a clock that shows the time of a session."""
     # ROSClock's constructor always returns a plain ROSClock, whatever class it is asked for.
     clock = _original_new(Clock, clock_type=ClockType.ROS_TIME)
-    ros = clock_type is ClockType.ROS_TIME
+    ros = clock_type == ClockType.ROS_TIME
     clock.__class__ = SessionClock if ros else VirtualClock
     made: VirtualClock = clock
     made._clock_type = clock_type

@@ -369,6 +369,8 @@ class SessionCore:
             return
         state.spinning, state.ended = False, True
         self.virtual.forget(state)
+        if node.executor is not None:
+            _end_coroutines(node.executor, state)
         for entry in state.entries:
             self._entries.pop(entry.entity, None)
             self._keys.pop(entry.key, None)
@@ -640,8 +642,9 @@ class SessionCore:
         self.virtual.is_live = not is_virtual
         for state in self.states():
             # Not `get_clock`, which a learner's class may have replaced.
-            clock: VirtualClock = state.node._clock
-            clock.follow_session() if is_virtual else clock.follow_wall()
+            clocks = {id(clock): clock for clock in (state.node._clock, *_timer_clocks(state))}
+            for clock in clocks.values():
+                clock.follow_session() if is_virtual else clock.follow_wall()
             if state.spinning and live is not None:
                 state.node.executor = live
             elif state.spinning:
@@ -900,9 +903,17 @@ def full_topic(call: str, topic: object) -> str:
     return name
 
 
-def _end_coroutines(executor: Executor) -> None:
-    """Close the coroutines that wait, whose `finally` blocks run then, as at the end of Python."""
+def _timer_clocks(state: NodeState) -> Iterator[VirtualClock]:
+    timers = (entry.entity for entry in state.entries if entry.kind == "timer")
+    return (timer.clock for timer in timers if isinstance(timer.clock, VirtualClock))
+
+
+def _end_coroutines(executor: Executor, state: NodeState | None = None) -> None:
+    """Close the coroutines that wait, of one node or all: their `finally` blocks run now."""
     for task, _, _ in list(executor._tasks):
+        call: Call | None = task.__dict__.get("_rosbeat_call")
+        if state is not None and (call is None or call.state is not state):
+            continue
         if iscoroutine(task._handler) and not task.executing():
             with suppress(Exception):  # what a `finally` block of a learner's raises
                 task._handler.close()
