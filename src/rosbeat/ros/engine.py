@@ -108,6 +108,7 @@ class VirtualTime(Switchboard):
         self._set_waits: list[Wait] = []
         self._waits_by_key: dict[int, list[Wait]] = {}
         self._entities_changed = False
+        self._changes = 0
         self._end = 0
         self._done: Callable[[], object] | None = None
         self._ends_idle = False
@@ -208,6 +209,7 @@ class VirtualTime(Switchboard):
     def entities_changed(self) -> None:
         """Note that entities were made or destroyed: their peers may have events to tell."""
         self._entities_changed = True
+        self._changes += 1
 
     def timer_reset(self, entry: Entry) -> None:
         """Note that a timer's `reset` was called, which may have brought it nearer."""
@@ -316,6 +318,18 @@ class VirtualTime(Switchboard):
         call.reads = (self.now, count + 1 if instant == self.now else 1)
         if count >= MOST_READS and instant == self.now:
             self.block("poll", self.now + POLL_NS, idle=True)
+
+    def has_new_events(self) -> bool:
+        """Return whether endpoints may have events that the executor here has not looked for.
+
+        The middleware tells of them when entities are made or destroyed, and not in a wait set's
+        lists of what is ready.
+        """
+        call = self.current
+        if call is None or call.changes == self._changes:
+            return False
+        call.changes = self._changes
+        return True
 
     def polled(self, next_ns: int | None = None) -> None:
         """Note that code of a node looked at its queues without waiting, and found nothing.

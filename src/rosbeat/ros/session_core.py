@@ -346,6 +346,7 @@ class SessionCore:
     def entity_made(self, node: Node, kind: str, entity: Entity) -> None:
         """Tap what sends; run the callbacks of whatever has some."""
         state = self._states[node]
+        self.virtual.entities_changed()
         if kind == "publisher":
             self._tap_publisher(state, entity)
         elif kind == "rate":

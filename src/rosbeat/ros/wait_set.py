@@ -97,7 +97,7 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclp
         if timeout_ns == 0:
             engine.polled(self.next_timer(engine.now)[0])
             return
-        if self.get_ready_entities("guard_condition"):
+        if self.get_ready_entities("guard_condition") or engine.has_new_events():
             return
         engine.wait_in_set(self, timeout_ns)
         if not self.has_waitables:

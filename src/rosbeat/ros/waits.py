@@ -55,6 +55,7 @@ class Call:
         polled: When it has last looked at its queues without waiting, and how often at that instant.
         reads: The same of the clocks of Python.
         turns: When it has last let others go first, and how often at that instant.
+        changes: How many changes of entities there were when it last looked for events.
         pause_ns: How much time it has let pass since its last look that found nothing.
     """
 
@@ -74,6 +75,7 @@ class Call:
     reads: tuple[int, int] = (-1, 0)
     turns: tuple[int, int] = (-1, 0)
     pause_ns: int = 0
+    changes: int = -1
 
     @property
     def node(self) -> str:
