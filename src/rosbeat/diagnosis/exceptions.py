@@ -882,7 +882,7 @@ def _meant(fault: Fault, owner: str, name: str) -> str:
     said = matched(fault, _SUGGESTED)
     if said:
         return said[1]
-    of_its_own = {"Publisher": ("publish",), "SessionLogger": _LEVELS, "RcutilsLogger": _LEVELS}
+    of_its_own = {"Publisher": ("publish",), "RcutilsLogger": _LEVELS}
     plain = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
     near = get_close_matches(plain, of_its_own.get(owner, NODE_METHODS), 1, 0.8)
     return near[0] if near else ""

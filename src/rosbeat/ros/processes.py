@@ -54,7 +54,6 @@ class NodeState:
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
         paused: Whether the session was told to pause it.
         ended: Whether it raised in a callback or requested a shutdown; this is permanent.
-        logger: The logger for its code, created at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
         taps: The taps on its publishers, in order of creation.
         actions: Its action servers and clients, in order of creation; see `actions`.
@@ -69,7 +68,6 @@ class NodeState:
     open: bool = False
     paused: bool = False
     ended: bool = False
-    logger: Any = None
     entries: list[Entry] = field(default_factory=list)
     taps: list[PublisherTap] = field(default_factory=list)
     actions: list[Any] = field(default_factory=list)

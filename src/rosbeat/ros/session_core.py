@@ -47,6 +47,7 @@ from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, w
 from rosbeat.ros.isolation import SeededRandom
 from rosbeat.ros.launch import Launch, Maker, build_in, show_sim_time
 from rosbeat.ros.live import LiveExecutor
+from rosbeat.ros.logs import bind, close_host, open_host
 from rosbeat.ros.processes import (
     TAKERS,
     Call,
@@ -64,7 +65,6 @@ from rosbeat.ros.recording import (
     Message,
     PublisherTap,
     Recorder,
-    SessionLogger,
     repair_message_classes,
 )
 from rosbeat.ros.virtual_time import LONGEST_WAIT, VirtualTimeExecutor
@@ -122,6 +122,7 @@ class SessionCore:
             self.graph_observer, self.recorder, self.now
         )
         self.context.install()
+        open_host(self)
 
     def now(self) -> int:
         """Return nanoseconds since the session began."""
@@ -294,15 +295,12 @@ class SessionCore:
         if node.executor is not None:
             node.executor.remove_node(node)
 
-    def logger_of(self, node: Node, original: RcutilsLogger) -> RcutilsLogger:
-        """Return the logger that the node's code gets."""
+    def logger_of(self, node: Node, logger: RcutilsLogger) -> RcutilsLogger:
+        """Return the logger that the node's code gets: its lines come to this session."""
         state = self._states.get(node)
-        if state is None:
-            return original
-        if state.logger is None:
-            # Not `get_clock`, which a learner's class may have replaced.
-            state.logger = SessionLogger(original.name, self._logged, node._clock)
-        return state.logger
+        if state is not None:
+            bind(logger, self, state)
+        return logger
 
     def explain_init(self) -> None:
         """Answer `rclpy.init()` of a learner."""
@@ -578,6 +576,7 @@ class SessionCore:
             self.graph_observer.destroy_node()
         self.virtual.shutdown()
         self.context.end()
+        close_host(self)
 
     # Watching what nodes make.
 
@@ -678,7 +677,26 @@ class SessionCore:
         if self.external_messages is not None:
             self.external_messages.watch_publisher(publisher)
 
-    def _logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
+    # What the loggers ask and tell; see `logs.LogHost`.
+
+    def has_this_thread(self) -> bool:
+        """Return whether its nodes run, or would run, in the calling thread."""
+        is_live_thread = self.live is not None and self.live.is_this_thread()
+        return is_live_thread or get_ident() == self.virtual.thread
+
+    def runs_here(self) -> bool:
+        """Return whether code of its nodes is running in the calling thread."""
+        if self.live is not None and self.live.is_this_thread():
+            return True
+        return self.virtual.in_callback
+
+    def process_here(self) -> Process | None:
+        """Return the simulated process whose code is running, or None if a cell is."""
+        call = self.virtual.current if self.live is None else None
+        return None if call is None else call.process
+
+    def logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
+        """Record a line; print it at once, in virtual time."""
         self.recorder.logs.append(LogRecord(self.now(), level, name, text, function, line))
         self.sent("subscription", "/rosout")
         if self.live is None:
