@@ -42,6 +42,28 @@ def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any
     return getattr(callback, "__name__", type(callback).__name__)
 
 
+#: Why a node has ended, as `Ending.kind` says it.
+RAISED, SHUT_DOWN, INTERRUPTED = "raised", "shut down", "interrupted"
+
+
+@dataclass(frozen=True)
+class Ending:
+    """Say why the nodes of a process have ended.
+
+    Attributes:
+        kind: `RAISED`: a callback raised; `SHUT_DOWN`: it called `rclpy.shutdown()`; `INTERRUPTED`:
+            it did not return, and was interrupted.
+        node: Full name of the node whose callback it was, one of the process.
+        callback: The callback.
+        time_ns: When it was, in nanoseconds since the session began.
+    """
+
+    kind: str
+    node: str
+    callback: str
+    time_ns: int
+
+
 @dataclass(eq=False)
 class NodeState:
     """Hold the state of one node of a session.
@@ -54,6 +76,7 @@ class NodeState:
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
         paused: Whether the session was told to pause it.
         ended: Whether it raised in a callback or requested a shutdown; this is permanent.
+        ending: Why it has ended, if that is known.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
         taps: The taps on its publishers, in order of creation.
         actions: Its action servers and clients, in order of creation; see `actions`.
@@ -68,6 +91,7 @@ class NodeState:
     open: bool = False
     paused: bool = False
     ended: bool = False
+    ending: Ending | None = None
     entries: list[Entry] = field(default_factory=list)
     taps: list[PublisherTap] = field(default_factory=list)
     actions: list[Any] = field(default_factory=list)

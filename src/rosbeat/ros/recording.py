@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
+from itertools import takewhile
 from operator import attrgetter
 from threading import Lock
 from time import monotonic
@@ -267,6 +268,12 @@ class Recorder:
         """Return when a callback ran last, in nanoseconds; -1 if never."""
         rows = zip(reversed(self._callback_labels), reversed(self._callback_times), strict=False)
         return next((at for number, at in rows if number == label), -1)
+
+    def runs(self, label: int, since_ns: int, until_ns: int) -> int:
+        """Return how often a callback has begun from one time on and before another."""
+        rows = zip(reversed(self._callback_times), reversed(self._callback_labels), strict=False)
+        recent = takewhile(lambda row: row[0] >= since_ns, rows)
+        return sum(number == label and at < until_ns for at, number in recent)
 
     def newest_callback(self) -> CallbackLabel | None:
         """Return the callback that began last."""

@@ -46,11 +46,15 @@ from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.isolation import SeededRandom
 from rosbeat.ros.launch import Launch, Maker, build_in, show_sim_time
-from rosbeat.ros.live import LiveExecutor
+from rosbeat.ros.live import BrokenOff, LiveExecutor
 from rosbeat.ros.logs import bind, close_host, open_host
 from rosbeat.ros.processes import (
+    INTERRUPTED,
+    RAISED,
+    SHUT_DOWN,
     TAKERS,
     Call,
+    Ending,
     Entry,
     NodeState,
     Process,
@@ -207,11 +211,11 @@ class SessionCore:
         self.makers[made] = maker
         self.spin_node(self._states[made])
 
-    def end_process(self, process: Process) -> None:
+    def end_process(self, process: Process, ending: Ending) -> None:
         """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
         for state in list(process.states):
             self.pause_node(state)
-            state.ended = True
+            state.ended, state.ending = True, state.ending or ending
         for call in [one for one in process.calls if one.wait is not None]:
             self.virtual.break_off(call)
 
@@ -315,10 +319,14 @@ class SessionCore:
         if state is None:
             note("rclpy.shutdown() does not close this session; use `ros.close()`.")
             return
+        label = self.recorder.newest_callback() if self.live is not None else self.virtual.calling
+        name = label.name if label is not None else "a callback"
+        ending = Ending(SHUT_DOWN, state.name, name, self.now())
         for one in state.process.states:
-            one.spinning, one.ended = False, True
+            one.spinning, one.ended, one.ending = False, True, one.ending or ending
         state.process.refresh()
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes keep running.")
+        self._note_neighbors(state)
 
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it.
@@ -372,12 +380,18 @@ class SessionCore:
         self.recorder.faults.append(fault_of(error, self.now(), node, name))
         repair_message_classes()
         if state is not None:
-            self.end_process(state.process)
+            kind = INTERRUPTED if isinstance(error, BrokenOff) else RAISED
+            self.end_process(state.process, Ending(kind, state.name, name, self.now()))
         if self.live is None:
             self.show_news()
-            others = [one.name for one in state.process.states if one is not state] if state else []
-            if others:
-                note(f"{', '.join(others)} ran in the same process, which has ended.")
+            if state is not None:
+                self._note_neighbors(state)
+
+    def _note_neighbors(self, state: NodeState) -> None:
+        """Say which nodes have ended with another one of their process."""
+        others = [one.name for one in state.process.states if one is not state]
+        if others:
+            note(f"{', '.join(others)} ran in the same process, which has ended.")
 
     def break_endless_off(self, interrupt: KeyboardInterrupt) -> str:
         """End the node whose callback an interrupt has hit, if the callback had run for long.
@@ -395,7 +409,7 @@ class SessionCore:
             state = self.named(label.node)
         if label is None or state is None or state.process.program is not None:
             return ""
-        self.end_process(state.process)
+        self.end_process(state.process, Ending(INTERRUPTED, state.name, label.name, self.now()))
         return (
             f"{state.name} had been in {label.name} for {seconds:.0f} s.\n"
             f"    line {line}: {code}\n"
@@ -531,7 +545,15 @@ class SessionCore:
         """End live mode; virtual time goes on from where the wall clock has come to."""
         if self.live is None:
             return
-        self.live.finish()
+        live = self.live
+        live.finish()
+        state, callback = self.state_of(live.current), self.recorder.newest_callback()
+        if live.is_stuck and state is not None and callback is not None:
+            note(
+                f"{callback.name} of {state.name} has not returned, and cannot be interrupted "
+                "while it sleeps or waits. Until it returns, no other callback of its callback "
+                "group runs."
+            )
         self.virtual.now, self.live = self.now(), None
         self._change_executor(self.virtual)
         self.virtual.look_anew()
