@@ -1,7 +1,9 @@
 """Log lines: from every logger, as rclpy writes them, and heard by their own session only."""
 
+import gc
 import threading
 import time
+import weakref
 from functools import partial
 
 import pytest
@@ -227,6 +229,16 @@ def test_log_level_of_a_program(ros, how, arguments, expected):
 
     ros.spawn(main, *(words if how == "argv" else []))
     assert [text for _, text in said(ros)] == expected
+
+
+def test_a_logger_of_a_module_keeps_no_session_alive():
+    with Session() as ros:
+        ros.add(partial(Doer, once_and_throttled))
+        ros.run(3, quiet=True)
+        core = weakref.ref(ros._core)
+    del ros
+    gc.collect()
+    assert core() is None
 
 
 # `/rosout`.

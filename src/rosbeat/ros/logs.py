@@ -17,7 +17,6 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from functools import wraps
 from itertools import pairwise
 from typing import Any, Protocol
@@ -156,73 +155,96 @@ def set_levels(process: object, arguments: Sequence[str]) -> bool:
     return rosout
 
 
-@dataclass(frozen=True)
-class _Source:
-    """Say whose code logs: of which session and process, and what is known of its calls.
+class _Memory:
+    """Hold what is known of one logger's calls in one process.
 
     Attributes:
         contexts: By place in the code: rclpy's record of its filters.
         places: By place in the code: the level with which rclpy has accepted it.
     """
 
-    host: LogHost
-    process: object | None
-    contexts: dict[Any, Any] = field(default_factory=dict)
-    places: dict[Any, int] = field(default_factory=dict)
-
-    def level(self, name: str) -> int:
-        """Return the level of a logger: that of its process, otherwise that of the session."""
-        owners = [owner for owner in (self.process, self.host) if owner is not None]
-        tables = [levels for owner in owners if (levels := _levels.get(owner))]
-        if not tables:
-            return _DEFAULT
-        while True:
-            for levels in tables:
-                level = levels.get(name)
-                if level is not None:
-                    return level
-            if not name:
-                return _DEFAULT
-            name = name.rpartition(".")[0]
-
-
-# Loggers.
-
-
-class _Memory:
-    """Hold what rclpy knows of one logger's calls in one process."""
+    __slots__ = ("__weakref__", "contexts", "places")
 
     def __init__(self) -> None:
         self.contexts: dict[Any, Any] = {}
         self.places: dict[Any, int] = {}
 
 
+class _Source:
+    """Hold whose code logs with one logger: of which session and process.
+
+    Attributes:
+        host: The session.
+        memory: What is known of the logger's calls there.
+    """
+
+    __slots__ = ("_owner", "_process", "host", "memory")
+
+    def __init__(
+        self,
+        host: LogHost,
+        memory: _Memory,
+        process: object | None = None,
+        owner: Owner | None = None,
+    ) -> None:
+        self.host, self.memory = host, memory
+        # A node may be moved to another process.
+        self._process, self._owner = process, owner
+
+    def for_child(self) -> _Source:
+        """Return a source for a logger below this one."""
+        return _Source(self.host, _Memory(), self._process, self._owner)
+
+    @property
+    def process(self) -> object | None:
+        """Return the simulated process; None for a cell."""
+        return self._process if self._owner is None else self._owner.process
+
+    def level(self, name: str) -> int:
+        """Return the level of a logger: that of its process, otherwise that of the session."""
+        if not _levels:
+            return _DEFAULT
+        owners = [owner for owner in (self.process, self.host) if owner is not None]
+        tables = [levels for owner in owners if (levels := _levels.get(owner))]
+        while tables:
+            for levels in tables:
+                level = levels.get(name)
+                if level is not None:
+                    return level
+            if not name:
+                break
+            name = name.rpartition(".")[0]
+        return _DEFAULT
+
+
+# Loggers. What this module knows of one is kept in its own attributes, since most are short-lived.
+
+
 def bind(logger: RcutilsLogger, host: LogHost, owner: Owner) -> None:
     """Let the lines of a node's logger go to its session, from whichever thread they come."""
-    logger._rosbeat_owner = (host, owner)
+    if "_rosbeat_source" not in logger.__dict__:
+        logger._rosbeat_source = _Source(host, _Memory(), owner=owner)
 
 
 def _source_of(logger: RcutilsLogger) -> _Source | None:
     """Return whose code logs with a logger; None for code of no session."""
-    owner = logger.__dict__.get("_rosbeat_owner")
-    if owner is not None:
-        host, state = owner
-        process = scope = state.process
-    else:
-        host = _host_here()
-        if host is None or logger.name.startswith(_HIDDEN):
-            return None
-        process = host.process_here()
-        scope = host if process is None else process
+    bound: _Source | None = logger.__dict__.get("_rosbeat_source")
+    if bound is not None:
+        return bound
+    host = _host_here()
+    if host is None or logger.name.startswith(_HIDDEN):
+        return None
+    process = host.process_here()
     # A logger of a module outlives a session, and programs share it: each of them is a process on
-    # a robot, so `once=True` logs once in each.
+    # a robot, so `once=True` logs once in each. It must not keep them alive.
     memories: WeakKeyDictionary[object, _Memory] = logger.__dict__.setdefault(
         "_rosbeat_memories", WeakKeyDictionary()
     )
+    scope = host if process is None else process
     memory = memories.get(scope)
     if memory is None:
         memory = memories[scope] = _Memory()
-    return _Source(host, process, memory.contexts, memory.places)
+    return _Source(host, memory, process)
 
 
 #: The names of rosbeat's own hidden nodes begin so.
@@ -286,6 +308,7 @@ def _hooked_log(
     logger: RcutilsLogger,
     message: str,
     severity: LoggingSeverity,
+    *name: str,
     **options: Any,  # noqa: ANN401 - passed on
 ) -> bool:
     """Log a line, as rclpy does, and tell the session of it; return whether it was logged.
@@ -297,25 +320,26 @@ def _hooked_log(
     """
     source = _source_of(logger)
     if source is None:
-        return bool(_log(logger, message, severity, **options))
+        return bool(_log(logger, message, severity, *name, **options))
+    options |= {"name": name[0]} if name else {}  # Kilted takes it in this place as well
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
         frame = frame.f_back
     place = (frame.f_code, frame.f_lasti)
     function, line = frame.f_code.co_name, frame.f_lineno
-    if options or source.places.get(place) != severity:
+    if options or source.memory.places.get(place) != severity:
         if options.get("throttle_duration_sec"):
             options.setdefault("throttle_time_source_type", _clock_of(source.host))
         with _in_place_of(logger, source):
             if not _log(logger, message, severity, **options):
                 return False
-        source.places[place] = severity
+        source.memory.places[place] = severity
     elif source.level(logger.name) <= severity:
         _send_anyway(severity, logger.name, message, function, frame.f_code.co_filename, line)
     else:
         return False
-    name = str(options.get("name", logger.name))
-    source.host.logged(LoggingSeverity(severity).name, name, str(message), function, line)
+    called = str(options.get("name") or logger.name)
+    source.host.logged(LoggingSeverity(severity).name, called, str(message), function, line)
     return True
 
 
@@ -323,7 +347,7 @@ def _hooked_log(
 def _in_place_of(logger: RcutilsLogger, source: _Source) -> Iterator[None]:
     """Let rclpy know of this source's earlier calls and levels only, in this block."""
     before, others = _here.source, logger.contexts
-    _here.source, logger.contexts = source, source.contexts
+    _here.source, logger.contexts = source, source.memory.contexts
     try:
         yield
     finally:
@@ -334,9 +358,9 @@ def _in_place_of(logger: RcutilsLogger, source: _Source) -> Iterator[None]:
 def _hooked_child(logger: RcutilsLogger, name: str) -> RcutilsLogger:
     """Return a logger below this one, heard by the same session."""
     child = _get_child(logger, name)
-    owner = logger.__dict__.get("_rosbeat_owner")
-    if owner is not None:
-        bind(child, *owner)
+    bound: _Source | None = logger.__dict__.get("_rosbeat_source")
+    if bound is not None:
+        child._rosbeat_source = bound.for_child()
     return child
 
 
@@ -358,7 +382,7 @@ def _source_here() -> _Source | None:
     if _here.source is not None:
         return _here.source
     host = _host_here()
-    return None if host is None else _Source(host, host.process_here())
+    return None if host is None else _Source(host, _Memory(), host.process_here())
 
 
 def _hooked_send(severity: int, name: str, *rest: Any) -> None:  # noqa: ANN401 - passed on
