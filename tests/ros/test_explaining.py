@@ -1,6 +1,7 @@
 """`ros.explain`: what sessions see of themselves, and of nodes in other processes."""
 
 import ctypes
+import signal
 import threading
 import time
 from functools import partial
@@ -480,6 +481,24 @@ def test_a_node_that_ended_itself_and_its_neighbor(ros, capsys, do, own, shared)
     assert own in found.diagnoses[0].evidence
     assert "same process" not in found.diagnoses[0].evidence
     assert "/talker ran in the same process, which has ended." in capsys.readouterr().out
+
+
+def test_a_node_whose_neighbor_was_interrupted(ros):
+    def hang(_):
+        end = time.monotonic() + 1.2  # an interrupt of a callback that has just begun ends no node
+        while True:
+            if time.monotonic() > end:
+                signal.raise_signal(signal.SIGINT)
+
+    ros.add(partial(Doer, hang, period=3.0), Talker)
+    ros.add(Listener)
+    with pytest.raises(KeyboardInterrupt):
+        ros.run(5)
+    found = ros.explain("count")
+    assert mistakes(found) == ["node-ended"]
+    evidence = found.diagnoses[0].evidence
+    assert "act of /doer was interrupted before it had returned" in evidence
+    assert "/talker ran in the same process, which ended with it." in evidence
 
 
 def test_a_node_whose_callback_was_interrupted_live(ros, capsys):
