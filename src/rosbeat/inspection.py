@@ -16,6 +16,7 @@ from rosbeat.diagnosis.topic_snapshot import (
     PAUSED,
     RUNNING,
     SILENT,
+    SPIN,
     Beat,
     Condition,
     OtherDomain,
@@ -176,6 +177,15 @@ def _holder(core: SessionCore, entry: Entry) -> Unreturned | None:
     calls = _waiting_calls(entry.state)
     if calls and not entry.state.process.has_thread():
         return _unreturned(calls[0])
+    return None if entry.state.spinning else _other_spin(entry.state)
+
+
+def _other_spin(state: NodeState) -> Unreturned | None:
+    """Return the `main` of a program that spins other nodes than this one."""
+    for call in state.process.calls if state.process.program is not None else ():
+        if call.spinning and call.entry is None and call.wait is not None:
+            began, until = call.wait.began_ns, call.wait.until_ns
+            return Unreturned(state.name, call.name, began, SPIN, until, is_main=True)
     return None
 
 
@@ -193,7 +203,9 @@ def _running(core: SessionCore, entry: Entry) -> int:
     """Return how many runs of an entity's callback have begun and not returned."""
     calls = sum(call.entry is entry for call in _waiting_calls(entry.state))
     tasks = len(_waiting_coroutines(core, entry))
-    return max(calls + tasks, int(_group_holder(core, entry) is entry and core.live is None))
+    # In live mode, a callback may just be running.
+    is_at_rest = core.live is None or core.live.task is None
+    return max(calls + tasks, int(is_at_rest and _group_holder(core, entry) is entry))
 
 
 # The nodes of the session.

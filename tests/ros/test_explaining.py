@@ -432,6 +432,21 @@ def test_a_main_that_does_not_spin(ros):
     assert "The main function of its program has waited since 0 s" in found.diagnoses[0].evidence
 
 
+def spin_the_other_one():
+    rclpy.init()
+    nodes = [Listener(), Doer(lambda _: None)]
+    rclpy.spin(nodes[1])
+
+
+def test_a_main_that_spins_another_node(ros):
+    ros.add(Talker)
+    ros.spawn(spin_the_other_one)
+    ros.run(10)
+    found = ros.explain("count")
+    assert mistakes(found) == ["not-spun"]
+    assert "has spun since 0 s, but not this node" in found.diagnoses[0].evidence
+
+
 @pytest.mark.parametrize("moment", [0.0, 0.1, 0.3, 0.55])
 def test_a_main_that_spins_now_and_then(ros, moment):
     ros.add(Talker)

@@ -32,6 +32,7 @@ from rosbeat.diagnosis.topic_snapshot import (
     RUNNING,
     SHUT_DOWN,
     SILENT,
+    SPIN,
     Beat,
     Condition,
     Scene,
@@ -178,11 +179,14 @@ def _blocked(held: Unreturned, node: str, effect: str) -> Finding:
     """Say what keeps a node's callbacks from running, and what has come of it."""
     began = f" began at {at_time(held.since_ns)} and" if held.since_ns >= 0 else ""
     if held.is_main:
+        since = at_time(held.since_ns)
+        does = f"waited since {since}{_waits_for(held)}. Meanwhile it spins no node"
+        if held.waits_for == SPIN:
+            does = f"spun since {since}, but not this node"
         return Finding(
             "not-spun",
             f"{node} is not spun",
-            f"The main function of its program has waited since {at_time(held.since_ns)}"
-            f"{_waits_for(held)}. Meanwhile it spins no node. {effect}",
+            f"The main function of its program has {does}. {effect}",
             "Callbacks run only while `main` is in `rclpy.spin` or another function that spins. "
             "Spin the node, and do what is repeated in a timer.",
             (Mark(NODE, node, words=("not spun",)),),

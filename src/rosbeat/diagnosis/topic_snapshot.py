@@ -18,6 +18,10 @@ BLOCKED, SILENT = "blocked", "no answer"
 RAISED, SHUT_DOWN, INTERRUPTED = "raised", "shut down", "interrupted"
 
 
+#: What a `main` that spins waits for, as `Unreturned.waits_for` says it.
+SPIN = "spin"
+
+
 @dataclass(frozen=True)
 class Unreturned:
     """Describe code of a node that has begun and has not returned.
@@ -26,10 +30,11 @@ class Unreturned:
         node: Full name of its node.
         callback: The callback, or the function `main` of a program.
         since_ns: When it began, in nanoseconds since the session began; -1 if unknown.
-        waits_for: What it waits for: `sleep`, or `a response from /add`; empty if unknown.
+        waits_for: What it waits for: `sleep`, or `a response from /add`; `SPIN` for a `main` that
+            spins other nodes only; empty if unknown.
         until_ns: When that wait ends by itself; None if no time ends it, or none is known.
         again: Whether it has waited before.
-        is_main: Whether it is the `main` of a program, which is not in a `spin`.
+        is_main: Whether it is the `main` of a program, which does not spin the node.
         in_vain: Why that wait cannot end, as the end of a sentence; empty if it may.
     """
 

@@ -180,7 +180,8 @@ class ProgramContext(Context):
         words = sys.argv if args is None else list(args)
         super().init(words, **options)  # which refuses arguments that are none
         self.ros_arguments = ros_arguments(words)
-        self.publishes_logs = set_levels(self.session_core.process_here(), self.ros_arguments)
+        process = self.session_core.process_here() or self.program
+        self.publishes_logs = set_levels(process, self.ros_arguments)
 
     def shutdown(self) -> None:
         """Shut down, and let a `spin` of the program return."""

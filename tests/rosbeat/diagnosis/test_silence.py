@@ -201,6 +201,9 @@ CASES = {
         ["act of /sensor has not returned. /monitor hears"]),
     "a main that does not spin": (late(replace(SLEEPS, is_main=True)), "not-spun",
         ["The main function of its program has waited since 3 s; it sleeps until 1003 s."]),
+    "a main that spins others": (
+        late(replace(SLEEPS, is_main=True, waits_for="spin", until_ns=None)), "not-spun",
+        ["The main function of its program has spun since 3 s, but not this node."]),
     "none has returned": (
         scene(pub(), sub(), beats=(
             spoke(number=1), heard(1, since=1, running=1, held=SLEEPS))),
