@@ -47,6 +47,7 @@ PART_OF = {
     "domains": "environment",
     "local_server": "grading",
     "jupyter_lease": "environment",
+    "inspection": "page_session",
     "page_errors": "page_session",
     "testing": "page_session",
     "pytest_plugin": "page_session",

@@ -20,15 +20,15 @@ def sub(node=MONITOR, topic=TOPIC, kind=FLOAT, qos=None, matched=1):
     return Endpoint(node, topic, kind, "subscription", qos or QoS(), matched)
 
 
-def spoke(node=SENSOR, number=10, last=10.0, rate=1.0, watched=10.0):
+def spoke(node=SENSOR, number=10, last=10.0, rate=1.0, watched=10.0, **more):
     """A publisher's heartbeat."""
-    return Beat(node, "publisher", number, seconds(last), rate, seconds(watched))
+    return Beat(node, "publisher", number, seconds(last), rate, seconds(watched), **more)
 
 
-def heard(node=MONITOR, number=10, last=10.0, missed=0, since=10):
+def heard(number=10, last=10.0, missed=0, since=10, node=MONITOR, **more):
     """A subscription's heartbeat."""
     last_ns = seconds(last) if number else -1
-    return Beat(node, "subscription", number, last_ns, 0.0, seconds(10), missed, since)
+    return Beat(node, "subscription", number, last_ns, 0.0, seconds(10), missed, since, **more)
 
 
 def scene(*ends, beats=(), twins=(), timers=(), **more):

@@ -32,18 +32,19 @@ MAY_IMPORT = {
     "comparisons": {"records", "errors"},
     "bags": {"records", "errors", "comparisons", "ros"},
     "viz": {"records", "errors", "diagnosis", "comparisons"},
-    # Of diagnosis only what names a fault and what it is told of a topic, as plain data.
+    # Of diagnosis only what names a fault.
     "ros": {
         *("errors", "records", "environment", "domains"),
-        *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.topic_snapshot"),
+        *("diagnosis.calls", "diagnosis.exceptions"),
     },
+    "inspection": {"records", "domains", "ros", "diagnosis"},
     "panel": {"records", "errors", "viz", "ros"},
     "page_errors": {"errors", "records", "diagnosis"},
     "record_display": {"records"},
-    "page_session": {"errors", "ros", "diagnosis", "panel"},
+    "page_session": {"errors", "ros", "diagnosis", "inspection", "panel"},
     "testing": {"errors", "records", "ros", "page_session"},
     "pytest_plugin": {"testing"},
-    "explain_command": {"errors", "ros", "diagnosis"},
+    "explain_command": {"errors", "ros", "diagnosis", "inspection"},
     "new_command": {"errors"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},

@@ -148,7 +148,8 @@ for offers in (reliable, best_effort):
 # In a session, nothing gets lost on the way, so three of the rows are alike: the collector's queue of 10 drops the
 # rest. In the third row, the two endpoints aren't connected, because their QoS is
 # [**incompatible**](../docs/glossary.md#incompatible). The rule is: **the publisher must offer at least what the
-# subscription asks for.** If it doesn't, no messages arrive, and there's no error.
+# subscription asks for.** If it doesn't, no messages arrive. There's no error, only a warning: each side logs one line
+# when it discovers the other, and nothing after that. (The collector's line came late because it was paused.)
 #
 # ## Durability: what a late subscriber gets
 #
@@ -382,12 +383,13 @@ ros.run(seconds=5)
 ros.explain("number")
 
 # %% [markdown]
-# **Symptom:** silence, and no error. **Where to look:** both nodes are in the graph, on the same topic, but they
-# aren't connected. `ros.explain` tells you which policy doesn't fit. **Cause:** the subscription asks for more
-# than the publisher offers. **Fix:** ask for less.
+# **Symptom:** silence, and no error; only one warning on each side, when the endpoints discovered each other.
+# **Where to look:** both nodes are in the graph, on the same topic, but they aren't connected. `ros.explain` tells
+# you which policy doesn't fit. **Cause:** the subscription asks for more than the publisher offers. **Fix:** ask for
+# less.
 #
-# Outside a session, there's one more sign. Incompatible QoS is an event, too, called `incompatible_qos`. If you
-# don't pass a callback for it, rclpy logs a warning:
+# The warnings come from an event. Incompatible QoS is one, called `incompatible_qos`, and if you don't pass a
+# callback for it, rclpy logs the warning. A command in a terminal does the same:
 
 # %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
 # timeout 60 ros2 topic pub --rate 5 --qos-profile sensor_data /number std_msgs/msg/Int32 "{data: 1}"

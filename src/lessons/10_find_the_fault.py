@@ -77,7 +77,10 @@ ros.run(seconds=20)
 ros.logs("lamp")
 
 # %% [markdown]
-# Twenty seconds, and not a single line. **The complaint:** "The lamp stays dark."
+# Twenty seconds, and the lamp hasn't lit once. **The complaint:** "The lamp stays dark."
+#
+# The two warnings are rclpy's. They tell you the cause, if you happen to see them: each side logs its warning once, at
+# the start, and among thousands of other lines it's soon out of sight. So find the fault without them.
 #
 # ## Halve the system
 #

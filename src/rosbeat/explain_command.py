@@ -11,8 +11,8 @@ from typing import Any
 from rosbeat.diagnosis.silence import Explanation, explain
 from rosbeat.diagnosis.topic_snapshot import StaleBuild
 from rosbeat.errors import CommandError, SessionError
+from rosbeat.inspection import inspect_topic
 from rosbeat.ros.errors import duration_ns
-from rosbeat.ros.inspection import inspect_topic
 from rosbeat.ros.session_core import SessionCore, full_topic
 
 #: The last domain id that there is (RTPS specification, section 9.6.1).

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from rosbeat.diagnosis.silence import Explanation
 from rosbeat.diagnosis.silence import explain as explain_scene
 from rosbeat.errors import called_as
+from rosbeat.inspection import inspect_topic
 from rosbeat.ros import session
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.errors import duration_ns
-from rosbeat.ros.inspection import inspect_topic
 from rosbeat.ros.session_core import full_topic
 
 if TYPE_CHECKING:

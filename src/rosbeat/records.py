@@ -70,12 +70,13 @@ class Sample(Timed):
 
 @dataclass(frozen=True, slots=True)
 class LogRecord(Timed):
-    """Hold one log line, as it came over `/rosout`.
+    """Hold one log line of a session's code: of a node, of a module, or of rclpy itself.
 
     Attributes:
         time_ns: When it was logged, in nanoseconds of virtual time.
         level: `DEBUG`, `INFO`, `WARN`, `ERROR` or `FATAL`.
-        name: The logger's name: the node's name without the leading slash, dots for namespaces.
+        name: The logger's name: the node's name without the leading slash, dots for namespaces; or
+            what a module has passed to `rclpy.logging.get_logger`.
         text: The message.
         function: The function that logged.
         line: The line in the source (in a page: in the cell) that logged.

@@ -14,7 +14,10 @@ from rosbeat.explain_command import explain_domain
 pytestmark = pytest.mark.ros
 NODES = (
     "Talker(period=0.1), Listener(), Listener('other', 'cuont'), "
-    "Talker('weak', 'weak', 0.1, qos=qos_profile_sensor_data), Listener('strong', 'weak'),"
+    "Talker('weak', 'weak', 0.1, qos=qos_profile_sensor_data), Listener('strong', 'weak'), "
+    # As `ros2 topic pub` and `ros2 topic echo` name theirs.
+    "Talker('_ros2cli_1', 'typed', 0.1), Listener('_ros2cli_2', 'typed'), "
+    "Talker('_ros2cli_3', 'rare', 0.1, qos=qos_profile_sensor_data), Listener('ear', 'rare'),"
 )
 SETUP = "__import__('builtins').__dict__.update(vars(__import__('rclpy.qos').qos)) or "
 
@@ -43,7 +46,7 @@ def test_all_is_well(domain, capsys):
     assert explain("count", "--domain-id", domain, "--seconds", 20) == 0
     said = capsys.readouterr()
     assert "All is well on /count" in said.out
-    assert "arrive at /listener" in said.out
+    assert "are sent to /listener" in said.out
     assert said.err == ""
 
 
@@ -59,6 +62,16 @@ def test_qualities_of_both_ends(domain, capsys):
     said = capsys.readouterr().out
     assert "/weak offers BEST_EFFORT, but /strong requests RELIABLE" in " ".join(said.split())
     assert "/weak publishes Int32 (BEST_EFFORT, VOLATILE)" in said
+
+
+def test_nodes_of_commands_count(domain, capsys):
+    assert explain("typed", "--domain-id", domain, "--seconds", 20) == 0
+    said = capsys.readouterr().out
+    assert "are sent to /_ros2cli_2" in said
+    assert "/_ros2cli_1 publishes Int32" in said
+    assert explain("rare", "--domain-id", domain, "--seconds", 20) == cli.FAILED
+    said = " ".join(capsys.readouterr().out.split())
+    assert "/_ros2cli_3 offers BEST_EFFORT, but /ear requests RELIABLE" in said
 
 
 def test_the_domain_of_the_terminal(domain, capsys, monkeypatch):

@@ -300,7 +300,7 @@ def test_explain_knows_a_deadlock(capsys):
         ros.add(Speaker)
         ros.run(5)
         told = str(ros.explain("speech"))
-    assert "a callback of /asker does not return" in told
+    assert "a callback of /asker has not returned" in told
     capsys.readouterr()
 
 

@@ -1,7 +1,6 @@
 """What is recorded of nodes: messages, log lines; and message classes that stay whole."""
 
 import math
-from functools import partial
 from itertools import product
 from types import SimpleNamespace
 
@@ -10,7 +9,6 @@ import pytest
 from geometry_msgs.msg import Point, Polygon
 from hypothesis import given
 from hypothesis import strategies as st
-from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
@@ -31,7 +29,7 @@ from std_msgs.msg import (
 )
 
 from limited import Heart, by_the_wall
-from nodes import Doer, Speaker, Words
+from nodes import Words
 from rosbeat.ros.recording import (
     Memory,
     PublisherTap,
@@ -210,54 +208,6 @@ def test_who_gets_stored_messages_has_them_when_all_is_delivered(offered, eventu
             assert arrived(late) == ([1, 2] if tap.stores_for(asked) else [])
             publisher.publish(Int32(data=3))
             assert arrived(late) == ([3] if tap.fits(late) else [])
-
-
-# A node's log lines: as rclpy writes them, and heard by their own session only.
-
-
-def said(ros, node=None):
-    return [(line.level, line.text) for line in ros.logs(node)]
-
-
-def test_one_place_with_two_levels(ros):
-    logger = ros.add(lambda: Node("two")).get_logger()
-    for name in ("info", "error", "info"):
-        if name == "info":
-            logger.info("x")
-        else:
-            logger.error("x")
-    assert [level for level, _ in said(ros)] == ["INFO", "ERROR", "INFO"]
-
-
-def test_filters(ros):
-    def do(node):
-        node.get_logger().info("once", once=True)
-        node.get_logger().info("skip", skip_first=True)
-        node.get_logger().info("throttled", throttle_duration_sec=2.5)
-
-    ros.add(partial(Doer, do))
-    ros.run(6, quiet=True)
-    texts = [text for _, text in said(ros)]
-    assert texts.count("once") == 1
-    assert texts.count("skip") == 5
-    # rclpy counts the first span from time zero, as it does with any simulated clock.
-    assert [line.time for line in ros.logs() if line.text == "throttled"] == [3, 6]
-
-
-def test_a_node_can_listen_to_rosout_in_virtual_time(ros):
-    heard = []
-    ear = ros.add(lambda: Node("ear"))
-    ear.create_subscription(Log, "/rosout", lambda line: heard.append((ros.time, line.msg)), 10)
-    ros.add(Speaker)
-    ros.run(2, quiet=True)
-    assert heard == [(1, "here is speaker"), (2, "here is speaker")]
-
-
-def test_logs_of_a_removed_node_can_be_read(ros):
-    speaker = ros.add(Speaker)
-    ros.run(1, quiet=True)
-    ros.remove(speaker)
-    assert len(ros.logs(speaker)) == 1
 
 
 # The C part of message types, loaded ahead.

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from rosbeat.clinic.charts import Chart, Published, Received
 from rosbeat.clinic.systems import OVERSHOOT, STEP
+from rosbeat.diagnosis.findings import count, listing, seconds
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.qos import incompatible
-from rosbeat.diagnosis.silence import count, listing, seconds
 from rosbeat.errors import called_as
 from rosbeat.records import Endpoint
 

@@ -11,9 +11,9 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from rosbeat.diagnosis.exceptions import diagnose_fault
+from rosbeat.diagnosis.findings import difference, nearest, short_type
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
-from rosbeat.diagnosis.silence import difference, nearest, short_type
 from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Fault, Observation
 
 

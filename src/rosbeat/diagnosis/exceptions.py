@@ -240,6 +240,9 @@ def _blocks(fault: Fault) -> Diagnosis | None:
     """Recognise a callback or a constructor that does not return (row 16)."""
     if fault.kind == "DeadlinePassed":
         return _stuck(fault)
+    if fault.kind == "BrokenOff":
+        means = f"{fault.callback} had not returned when it was interrupted."
+        return Diagnosis("callback-blocks", means, _NO_WAIT if _waits(fault) else _NO_LOOP)
     if fault.kind == "DeadlockError":
         return Diagnosis("callback-blocks", fault.text.partition("\n")[0], _WHO_SPINS)
     inside = r"was called (from )?inside|spin_once was called for"
@@ -279,6 +282,11 @@ _QUICK = (
 )
 
 
+def _waits(fault: Fault) -> bool:
+    """Return whether the line of a fault waits for something."""
+    return re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
+
+
 def _stuck(fault: Fault) -> Diagnosis:
     anew = re.match(r"(\d+ (?:publishers|subscriptions|timers)\b.*) in (\d+) calls$", fault.text)
     if anew:
@@ -291,7 +299,7 @@ def _stuck(fault: Fault) -> Diagnosis:
     if slow:
         means = f"The run is too slow: {fault.text}, and it was not over."
         return Diagnosis("slow-callback", means, _QUICK)
-    waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
+    waits = _waits(fault)
     loops = re.match(r"(while|for)\b", fault.code) is not None
     if fault.callback == "__init__":
         ends = (
@@ -882,7 +890,7 @@ def _meant(fault: Fault, owner: str, name: str) -> str:
     said = matched(fault, _SUGGESTED)
     if said:
         return said[1]
-    of_its_own = {"Publisher": ("publish",), "SessionLogger": _LEVELS, "RcutilsLogger": _LEVELS}
+    of_its_own = {"Publisher": ("publish",), "RcutilsLogger": _LEVELS}
     plain = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
     near = get_close_matches(plain, of_its_own.get(owner, NODE_METHODS), 1, 0.8)
     return near[0] if near else ""

@@ -14,6 +14,38 @@ from rosbeat.records import NANOSECONDS, Endpoint, Fault, GraphSnapshot
 #: How a node does, as `Condition.state` says it.
 RUNNING, PAUSED, NOT_ADDED, ENDED = "running", "paused", "not added", "ended"
 BLOCKED, SILENT = "blocked", "no answer"
+#: Why a node has ended, as `Condition.cause` says it.
+RAISED, SHUT_DOWN, INTERRUPTED = "raised", "shut down", "interrupted"
+
+
+#: What a `main` that spins waits for, as `Unreturned.waits_for` says it.
+SPIN = "spin"
+
+
+@dataclass(frozen=True)
+class Unreturned:
+    """Describe code of a node that has begun and has not returned.
+
+    Attributes:
+        node: Full name of its node.
+        callback: The callback, or the function `main` of a program.
+        since_ns: When it began, in nanoseconds since the session began; -1 if unknown.
+        waits_for: What it waits for: `sleep`, or `a response from /add`; `SPIN` for a `main` that
+            spins other nodes only; empty if unknown.
+        until_ns: When that wait ends by itself; None if no time ends it, or none is known.
+        again: Whether it has waited before.
+        is_main: Whether it is the `main` of a program, which does not spin the node.
+        in_vain: Why that wait cannot end, as the end of a sentence; empty if it may.
+    """
+
+    node: str
+    callback: str
+    since_ns: int = -1
+    waits_for: str = ""
+    until_ns: int | None = None
+    again: bool = False
+    is_main: bool = False
+    in_vain: str = ""
 
 
 @dataclass(frozen=True)
@@ -28,7 +60,19 @@ class Beat:
         rate_hz: Messages a second; 0 if unknown.
         watched_ns: For how long it was watched, in nanoseconds.
         missed: Of a subscription: messages that were published before it was there.
-        since: Of a subscription: messages that were published since.
+        since: Of a subscription: messages that were published since by publishers that it is
+            connected to.
+        running: Of a subscription: how many runs of its callback have not returned.
+        behind: Of a subscription: messages that came after its callback had last begun.
+        behind_ns: For how long the first of these has waited, in nanoseconds.
+        newest: Of a subscription: how many of its newest messages were looked at.
+        arrived: How often its callback has begun since the first of these.
+        at_once: How many of these came at one moment, at most.
+        unheard: Of a subscription in live mode: messages that arrived from other processes while
+            its callback did not run.
+        waited_ns: For how long callbacks of its process have waited meanwhile, in nanoseconds.
+        held: What keeps its callback from running now; of a publisher, what keeps every callback
+            of its node that could publish from running.
     """
 
     node: str
@@ -39,6 +83,15 @@ class Beat:
     watched_ns: int = 0
     missed: int = 0
     since: int = 0
+    running: int = 0
+    behind: int = 0
+    behind_ns: int = 0
+    newest: int = 0
+    arrived: int = 0
+    at_once: int = 0
+    unheard: int = 0
+    waited_ns: int = 0
+    held: Unreturned | None = None
 
     @property
     def seconds(self) -> float:
@@ -56,13 +109,17 @@ class Condition:
             `BLOCKED` by a callback that does not return; `SILENT`, if it is in another process and
             does not answer.
         fault: The exception that ended it, if one did.
-        callback: The callback that does not return.
+        callback: The callback that does not return, or that ended it.
+        cause: Why it has ended: `RAISED`, `SHUT_DOWN` or `INTERRUPTED`; empty if unknown.
+        culprit: The node of the same process whose callback ended it, if it was not its own.
     """
 
     node: str
     state: str = RUNNING
     fault: Fault | None = None
     callback: str = ""
+    cause: str = ""
+    culprit: str = ""
 
 
 @dataclass(frozen=True)

@@ -273,7 +273,9 @@ def _diagnose_displays(observation: Observation, joining: Sequence[float]) -> Di
     words = [(one.time, str(one.value)) for one in samples_on(observation, _MODE)]
     modes = Modes(words, joining)
     numbers = {name: number for number, name in enumerate(_DISPLAYS)}
-    done = grouped((numbers[log.name], log.text) for log in observation.logs if log.name in numbers)
+    # A display logs what it hears; rclpy warns in its name if it cannot hear the publisher.
+    lines = [log for log in observation.logs if log.name in numbers and log.level == "INFO"]
+    done = grouped((numbers[log.name], log.text) for log in lines)
     # A publisher that was destroyed is no longer in the graph.
     offers = next((end.qos for end in _ends(observation, _MODE, "publisher")), _ONE_STORED)
 

@@ -13,8 +13,8 @@ from difflib import get_close_matches
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rosbeat.diagnosis.findings import listing
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.silence import listing
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import before_reading
 from rosbeat.exercises.scenarios import Report, Value, report

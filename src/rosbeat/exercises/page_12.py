@@ -16,8 +16,8 @@ from math import inf, isnan, nan
 from typing import Any
 
 from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.diagnosis.findings import difference, nearest
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     Mismatch,

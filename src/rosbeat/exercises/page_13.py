@@ -18,8 +18,8 @@ from typing import Any
 
 from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
+from rosbeat.diagnosis.findings import difference, nearest
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.exercises.exercise import (
     FAILED,
     NEW_TO_ME,

@@ -11,7 +11,8 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
 - Parts of nodes: `launch` (starting a node), `context` (rclpy's default context), `qos_events`
   (deadlines and lifespans by the session's clock), `actions`.
 - Observation: `recording` (taps, hooks, recorder), `exception_origin` (from an exception to a
-  line), `graph` (nodes and endpoints, in other processes too), `inspection` (why nothing arrives).
+  line), `graph` (nodes and endpoints, in other processes too), `listening` (their messages),
+  `logs` (the log lines of a session's code).
 - Running an answer: `isolation` (with a deadline and seeded random numbers), `scenario` (`observe`
   and the steps of a run), `test_nodes` (nodes of the course's own), `programs` (operating-system
   processes).

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -18,7 +19,9 @@ import rclpy.utilities
 from rclpy.context import Context
 
 from rosbeat.domains import SESSION_DOMAINS
+from rosbeat.ros.arguments import ros_arguments
 from rosbeat.ros.errors import note
+from rosbeat.ros.logs import set_levels
 from rosbeat.ros.recording import in_kernel
 
 if TYPE_CHECKING:
@@ -161,18 +164,24 @@ class ProgramContext(Context):
         session_core: The state of the session.
         program: The program.
         home: The context in which nodes are created.
+        ros_arguments: What `init` was told for ROS.
+        publishes_logs: Whether its nodes have publishers on `/rosout`.
     """
 
     def __init__(self, core: SessionCore, program: SimulatedProgram) -> None:
         super().__init__()
+        self.ros_arguments: list[str] = []
+        self.publishes_logs = True
         self.session_core, self.program = core, program
         self.home: Context = core.context
 
-    @property
-    def ros_arguments(self) -> list[str]:
-        """Return what stands behind `--ros-args` on the command line, with that word."""
-        words = self.program.argv
-        return words[words.index("--ros-args") :] if "--ros-args" in words else []
+    def init(self, args: Any = None, **options: Any) -> None:  # noqa: ANN401 - rclpy's own signature
+        """Initialize the context: the arguments hold for all of the program's nodes."""
+        words = sys.argv if args is None else list(args)
+        super().init(words, **options)  # which refuses arguments that are none
+        self.ros_arguments = ros_arguments(words)
+        process = self.session_core.process_here() or self.program
+        self.publishes_logs = set_levels(process, self.ros_arguments)
 
     def shutdown(self) -> None:
         """Shut down, and let a `spin` of the program return."""

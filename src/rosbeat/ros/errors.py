@@ -140,7 +140,8 @@ def node_has_ended(name: str) -> SessionError:
     """Return the error for `resume` of a node that raised."""
     return SessionError(
         f"{name} has ended and cannot be resumed.",
-        "Either one of its callbacks raised an exception, or the node called rclpy.shutdown().",
+        "A callback of its process raised an exception, called rclpy.shutdown(), or was "
+        "interrupted before it had returned.",
         "Add the node again: `ros.add(...)` creates a new node in its place.",
     )
 

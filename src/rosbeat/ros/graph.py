@@ -125,6 +125,7 @@ _SAME_LOOKS = 7
 #: for longer, whoever is missing has stopped. While there is news, a busy machine is waited for.
 _NO_NEWS, _AT_MOST = 4.0, 20.0
 _numbers = count(1)  # only makes names differ
+_HIDDEN_NAME = "_rosbeat_"
 
 
 class HiddenNode(Unwatched, Node):
@@ -132,7 +133,7 @@ class HiddenNode(Unwatched, Node):
 
     def __init__(self, context: Context) -> None:
         super().__init__(
-            f"_rosbeat_{os.getpid()}_{next(_numbers)}",
+            f"{_HIDDEN_NAME}{os.getpid()}_{next(_numbers)}",
             context=context,
             enable_rosout=False,
             start_parameter_services=False,
@@ -217,6 +218,11 @@ class GraphObserver(HiddenNode):
         return known_both_ways and len(seen) >= count_participants(self._domain_id)
 
 
+def is_of_course(name: str) -> bool:
+    """Return whether a node is one of rosbeat's hidden ones, or has no name yet."""
+    return name.startswith(f"/{_HIDDEN_NAME}") or name.endswith(_UNKNOWN_NODE)
+
+
 def owner(endpoint: Any) -> str:  # noqa: ANN401 - rclpy's TopicEndpointInfo
     """Return the full name of the node that an endpoint belongs to."""
     return full_name(endpoint.node_name, endpoint.node_namespace)
@@ -243,18 +249,22 @@ def with_other_processes(own: GraphSnapshot, observer: GraphObserver) -> GraphSn
 
 def _topic_endpoints(observer: GraphObserver) -> Iterator[Endpoint]:
     for topic in observer.topics():
-        if topic == _LOG_TOPIC or is_hidden(topic):
-            continue
-        publishers, subscriptions = observer.publishers(topic), observer.subscriptions(topic)
-        matches = Counter[int]()
-        for one, other in product(publishers, subscriptions):
-            # The middleware tells a process of its own matches only; but its rule is known.
-            if one.topic_type == other.topic_type and fit(one.qos_profile, other.qos_profile):
-                matches.update((id(one), id(other)))
-        for kind, ends in (("publisher", publishers), ("subscription", subscriptions)):
-            for one in filter(observer.is_outside, ends):
-                qos, matched = qos_of(one.qos_profile), matches[id(one)]
-                yield Endpoint(owner(one), topic, one.topic_type, kind, qos, matched)
+        if topic != _LOG_TOPIC and not is_hidden(topic):
+            yield from outside_endpoints(observer, topic)
+
+
+def outside_endpoints(observer: GraphObserver, topic: str) -> Iterator[Endpoint]:
+    """Return the endpoints of a topic that belong to other processes, hidden nodes included."""
+    publishers, subscriptions = observer.publishers(topic), observer.subscriptions(topic)
+    matches = Counter[int]()
+    for one, other in product(publishers, subscriptions):
+        # The middleware tells a process of its own matches only; but its rule is known.
+        if one.topic_type == other.topic_type and fit(one.qos_profile, other.qos_profile):
+            matches.update((id(one), id(other)))
+    for kind, ends in (("publisher", publishers), ("subscription", subscriptions)):
+        for end in filter(observer.is_outside, ends):
+            qos, matched = qos_of(end.qos_profile), matches[id(end)]
+            yield Endpoint(owner(end), topic, end.topic_type, kind, qos, matched)
 
 
 def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoint]:

@@ -109,6 +109,11 @@ class LiveExecutor(SingleThreadedExecutor):
                 task.cancel()  # a coroutine that still waits; this frees its callback group
         self.shutdown()
 
+    @property
+    def is_stuck(self) -> bool:
+        """Return whether a callback still runs although `finish` has broken it off."""
+        return self._stopping.is_set() and self._thread.is_alive()
+
     def interrupt(self) -> None:
         """Break off the callback that is running now, unless it returns at once.
 

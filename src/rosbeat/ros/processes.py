@@ -38,6 +38,28 @@ def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any
     return getattr(callback, "__name__", type(callback).__name__)
 
 
+#: Why a node has ended, as `Ending.kind` says it.
+RAISED, SHUT_DOWN, INTERRUPTED = "raised", "shut down", "interrupted"
+
+
+@dataclass(frozen=True)
+class Ending:
+    """Say why the nodes of a process have ended.
+
+    Attributes:
+        kind: `RAISED`: a callback raised; `SHUT_DOWN`: it called `rclpy.shutdown()`; `INTERRUPTED`:
+            it did not return, and was interrupted.
+        node: Full name of the node whose callback it was, one of the process.
+        callback: The callback.
+        time_ns: When it was, in nanoseconds since the session began.
+    """
+
+    kind: str
+    node: str
+    callback: str
+    time_ns: int
+
+
 @dataclass(eq=False)
 class NodeState:
     """Hold the state of one node of a session.
@@ -52,7 +74,7 @@ class NodeState:
         paused: Whether the session was told to pause it.
         ended: Whether it raised in a callback or requested a shutdown; this is permanent.
         is_scheduled: Whether the schedule of the engine has its timers.
-        logger: The logger for its code, created at the first call of `get_logger`.
+        ending: Why it has ended, if that is known.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
         taps: The taps on its publishers, in order of creation.
         actions: Its action servers and clients, in order of creation; see `actions`.
@@ -68,7 +90,7 @@ class NodeState:
     paused: bool = False
     ended: bool = False
     is_scheduled: bool = False
-    logger: Any = None
+    ending: Ending | None = None
     entries: list[Entry] = field(default_factory=list)
     taps: list[PublisherTap] = field(default_factory=list)
     actions: list[Any] = field(default_factory=list)
@@ -223,6 +245,16 @@ class Process:
         self._round = deque(sorted(ready, key=_place))
         return self._round.popleft() if self._round else None
 
+    def has_thread(self) -> bool:
+        """Return whether one of its executors has a thread that may begin another callback."""
+        if self.is_direct:
+            return self.busy is None
+        waiting = [call for call in self.calls if call.wait is not None]
+        held = [call for call in waiting if not call.idle and call.entry is not None]
+        if self.program is None and len(held) >= self.pool_size:
+            return False
+        return any(call.idle and call.wait and call.wait.reason == "spin" for call in waiting)
+
     def is_in_round(self) -> bool:
         """Return whether something that the last look found ready has not had its turn."""
         return any(entry in self.pending for entry in self._round)
@@ -233,6 +265,11 @@ class Process:
         for entry in state.entries:
             self.pending.pop(entry, None)
         self.refresh()
+
+
+def is_free(entry: Entry) -> bool:
+    """Return whether the callback group of an entity lets its callback run."""
+    return bool(entry.entity.callback_group.can_execute(entry.entity))
 
 
 def _place(entry: Entry) -> tuple[int, int, int]:

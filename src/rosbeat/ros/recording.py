@@ -1,13 +1,11 @@
 """Observe nodes without changing them, and record what happens.
 
 Hooks around the methods of rclpy's `Node` report new nodes and entities to the session. Taps
-intercept publishers and clients, and a logger of the session receives the nodes' log lines. The
-recorder stores all of it.
+intercept publishers and clients; `logs` receives the log lines. The recorder stores all of it.
 """
 
 from __future__ import annotations
 
-import os
 import sys
 from array import array
 from collections import Counter
@@ -16,13 +14,13 @@ from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
+from itertools import takewhile
 from operator import attrgetter
 from threading import Lock
 from time import monotonic
-from types import CodeType, ModuleType
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rclpy.clock import Clock
 from rclpy.duration import Duration
 from rclpy.event_handler import EventHandler
 from rclpy.exceptions import (
@@ -30,10 +28,8 @@ from rclpy.exceptions import (
     InvalidTopicNameException,
     NotInitializedException,
 )
-from rclpy.impl import rcutils_logger
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.impl.rcutils_logger import RcutilsLogger
-from rclpy.logging import LoggingSeverity
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import (
@@ -48,6 +44,7 @@ from rclpy.validate_node_name import validate_node_name
 
 from rosbeat.errors import NoSessionError, SessionError
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
+from rosbeat.ros.arguments import node_arguments, ros_arguments
 from rosbeat.ros.exception_origin import asking, is_message_class
 from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
@@ -273,6 +270,12 @@ class Recorder:
         rows = zip(reversed(self._callback_labels), reversed(self._callback_times), strict=False)
         return next((at for number, at in rows if number == label), -1)
 
+    def runs(self, label: int, since_ns: int, until_ns: int) -> int:
+        """Return how often a callback has begun from one time on and before another."""
+        rows = zip(reversed(self._callback_times), reversed(self._callback_labels), strict=False)
+        recent = takewhile(lambda row: row[0] >= since_ns, rows)
+        return sum(number == label and at < until_ns for at, number in recent)
+
     def newest_callback(self) -> CallbackLabel | None:
         """Return the callback that began last."""
         labels = list(self._labels.values())
@@ -420,72 +423,6 @@ class PublisherTap:
             return True
 
 
-# The logger that a node of a session gets.
-#
-# A session that listened on `/rosout` would hear its neighbours: rcl keeps one publisher there for
-# each logger name *in the whole process* (logging_rosout.c). So lines are taken one step earlier,
-# from the node's own logger, and go on to `/rosout` as ever.
-
-
-#: level, logger name, text, function, line
-Listener = Callable[[str, str, str, str, int], None]
-
-_THIS_FILE = os.path.realpath(__file__)
-_OWN_FILES = (_THIS_FILE, os.path.realpath(rcutils_logger.__file__))
-
-# rclpy names the caller of a log line by skipping the files in this list; ours is one of them.
-rcutils_logger._internal_callers.append(_THIS_FILE)
-
-
-class SessionLogger(RcutilsLogger):
-    """Log as rclpy does, and tell the session.
-
-    The first call from each place goes through rclpy, which checks it and remembers the place.
-    Later calls from there with the same level and no filter are handed to rcl directly: rclpy would
-    look its caller up in the source files each time, which takes twenty times as long as all the
-    rest (230 of 240 microseconds). `throttle_duration_sec` counts seconds of `clock`.
-    """
-
-    def __init__(self, name: str, listener: Listener, clock: Clock) -> None:
-        super().__init__(name)
-        self._listener = listener
-        self._clock = clock
-        self._places: dict[tuple[CodeType, int], LoggingSeverity] = {}
-
-    def get_child(self, name: str) -> SessionLogger:
-        """Return a logger below this one, heard by the same session."""
-        child = super().get_child(name)
-        made = SessionLogger(child.name, self._listener, self._clock)
-        # rclpy removes the child's /rosout publisher by this pair of names.
-        made.logger_sublogger_namepair = child.logger_sublogger_namepair
-        child.logger_sublogger_namepair = None
-        return made
-
-    def log(self, message: str, severity: LoggingSeverity, **options: Any) -> bool:  # noqa: ANN401 - passed on
-        """Log a line, as rclpy does; return whether it was logged."""
-        frame = sys._getframe(1)
-        while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
-            frame = frame.f_back
-        place = (frame.f_code, frame.f_lasti)
-        function, line = frame.f_code.co_name, frame.f_lineno
-        if options or self._places.get(place) != severity:
-            if "throttle_duration_sec" in options:
-                options.setdefault("throttle_time_source_type", self._clock)
-            if not super().log(message, severity, **options):
-                return False
-            self._places[place] = severity
-        elif self.is_enabled_for(severity):
-            file = frame.f_code.co_filename
-            rclpy_implementation.rclpy_logging_rcutils_log(
-                severity, self.name, message, function, file, line
-            )
-        else:
-            return False
-        name = str(options.get("name", self.name))
-        self._listener(LoggingSeverity(severity).name, name, str(message), function, line)
-        return True
-
-
 # How a session learns of nodes, without the nodes being changed.
 #
 # rclpy tells nobody that a node, a publisher or a timer was made. So the methods of `Node` that
@@ -527,13 +464,18 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
                 return
             # For a wrong name rclpy raises the same, and warns on stderr of a failed cleanup.
             validate_node_name(name)
-            start, said = core.start, list(kwargs.get("cli_args") or ())
+            # Of what a command line says, a node may refuse all but the logging.
+            is_told = kwargs.get("use_global_arguments", True)
+            start = core.start
+            told = ros_arguments(start.arguments()) if is_told else []
             if hasattr(context, "home") and context.ok():  # a program's: see `ProgramContext`
                 kwargs["context"] = context.home
-                said += context.ros_arguments
-            kwargs["cli_args"] = [*said, *start.arguments()] or None
-            namespace = start.namespace or kwargs.get("namespace") or "/"
-            core.node_begins(start.name or name, namespace)
+                told = [*told, *context.ros_arguments] if is_told else told
+                if not context.publishes_logs:
+                    kwargs["enable_rosout"] = False
+            kwargs["cli_args"] = node_arguments(kwargs.get("cli_args") or (), told) or None
+            new_name, new_namespace = (start.name, start.namespace) if is_told else ("", "")
+            core.node_begins(new_name or name, new_namespace or kwargs.get("namespace") or "/")
             with core.context.making_node():
                 original(node, *args, **kwargs)
         if context is not kwargs.get("context", context):

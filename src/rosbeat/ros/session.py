@@ -394,10 +394,10 @@ class Session:
 
     @called_as('ros.logs("sensor")')
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
-        """Return what the nodes said, in order.
+        """Return the log lines in order: of nodes, of modules' loggers, and of rclpy itself.
 
         Args:
-            node: Only the lines of this node, given itself or by name.
+            node: Only the lines of this node, given itself or by name, or of the logger of a name.
 
         Raises:
             SessionError: If `node` is neither a name nor a node that is or was in this session.

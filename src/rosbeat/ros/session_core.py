@@ -32,6 +32,7 @@ from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnap
 from rosbeat.ros.actions import action_of
 from rosbeat.ros.clock import START, VirtualClock, VirtualNames, make_clock
 from rosbeat.ros.context import SessionContext
+from rosbeat.ros.engine import LONGEST_WAIT, VirtualTime
 from rosbeat.ros.errors import (
     INSTEAD_OF_WAITING,
     Console,
@@ -49,9 +50,19 @@ from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.isolation import SeededRandom
 from rosbeat.ros.launch import Launch, Maker, build_in
-from rosbeat.ros.engine import LONGEST_WAIT, VirtualTime, is_plain
-from rosbeat.ros.live import LiveExecutor
-from rosbeat.ros.processes import Entry, NodeState, Process, callback_name, full_name
+from rosbeat.ros.live import BrokenOff, LiveExecutor
+from rosbeat.ros.logs import bind, close_host, open_host
+from rosbeat.ros.processes import (
+    INTERRUPTED,
+    RAISED,
+    SHUT_DOWN,
+    Ending,
+    Entry,
+    NodeState,
+    Process,
+    callback_name,
+    full_name,
+)
 from rosbeat.ros.qos_events import Limits, wait_for_stored
 from rosbeat.ros.recording import (
     Entity,
@@ -59,7 +70,6 @@ from rosbeat.ros.recording import (
     Message,
     PublisherTap,
     Recorder,
-    SessionLogger,
     repair_message_classes,
 )
 from rosbeat.ros.taking import TAKERS
@@ -125,6 +135,7 @@ class SessionCore:
             self.graph_observer, self.recorder, self.now
         )
         self.context.install()
+        open_host(self)
 
     def now(self) -> int:
         """Return nanoseconds since the session began."""
@@ -273,11 +284,11 @@ class SessionCore:
         self.makers[made] = maker
         self.spin_node(self._states[made])
 
-    def end_process(self, process: Process) -> None:
+    def end_process(self, process: Process, ending: Ending) -> None:
         """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
         for state in list(process.states):
             self.pause_node(state)
-            state.ended = True
+            state.ended, state.ending = True, state.ending or ending
         process.is_over = True
         for call in [call for call in process.calls if call.wait is not None]:
             self.virtual.break_off(call)
@@ -378,15 +389,12 @@ class SessionCore:
         if node.executor is not None:
             node.executor.remove_node(node)
 
-    def logger_of(self, node: Node, original: RcutilsLogger) -> RcutilsLogger:
-        """Return the logger that the node's code gets."""
+    def logger_of(self, node: Node, logger: RcutilsLogger) -> RcutilsLogger:
+        """Return the logger that the node's code gets: its lines come to this session."""
         state = self._states.get(node)
-        if state is None:
-            return original
-        if state.logger is None:
-            # Not `get_clock`, which a learner's class may have replaced.
-            state.logger = SessionLogger(original.name, self._logged, node._clock)
-        return state.logger
+        if state is not None:
+            bind(logger, self, state)
+        return logger
 
     def explain_init(self) -> None:
         """Answer `rclpy.init()` of a learner."""
@@ -401,14 +409,18 @@ class SessionCore:
         if state is None:
             note("rclpy.shutdown() does not close this session; use `ros.close()`.")
             return
+        label = self.recorder.newest_callback() if self.live is not None else self.virtual.calling
+        name = label.name if label is not None else "a callback"
+        ending = Ending(SHUT_DOWN, state.name, name, self.now())
         process = state.process
         for other in process.states:
-            other.spinning, other.ended = False, True
+            other.spinning, other.ended, other.ending = False, True, other.ending or ending
         process.is_over = True
         process.refresh()
         if process.spinner is not None:
             self.virtual.break_off(process.spinner)
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes keep running.")
+        self._note_neighbors(state)
 
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it.
@@ -466,12 +478,18 @@ class SessionCore:
         self.recorder.faults.append(fault_of(error, self.now(), node, name))
         repair_message_classes()
         if state is not None:
-            self.end_process(state.process)
+            kind = INTERRUPTED if isinstance(error, BrokenOff) else RAISED
+            self.end_process(state.process, Ending(kind, state.name, name, self.now()))
         if self.live is None:
             self.show_news()
-            others = [one.name for one in state.process.states if one is not state] if state else []
-            if others:
-                note(f"{', '.join(others)} ran in the same process, which has ended.")
+            if state is not None:
+                self._note_neighbors(state)
+
+    def _note_neighbors(self, state: NodeState) -> None:
+        """Say which nodes have ended with another one of their process."""
+        others = [one.name for one in state.process.states if one is not state]
+        if others:
+            note(f"{', '.join(others)} ran in the same process, which has ended.")
 
     def break_endless_off(self, interrupt: KeyboardInterrupt) -> str:
         """End the node whose callback an interrupt has hit, if the callback had run for long.
@@ -489,7 +507,7 @@ class SessionCore:
             state = self.named(label.node)
         if label is None or state is None or state.process.program is not None:
             return ""
-        self.end_process(state.process)
+        self.end_process(state.process, Ending(INTERRUPTED, state.name, label.name, self.now()))
         return (
             f"{state.name} had been in {label.name} for {seconds:.0f} s.\n"
             f"    line {line}: {code}\n"
@@ -633,7 +651,15 @@ class SessionCore:
         """End live mode; virtual time goes on from where the wall clock has come to."""
         if self.live is None:
             return
-        self.live.finish()
+        live = self.live
+        live.finish()
+        state, callback = self.state_of(live.current), self.recorder.newest_callback()
+        if live.is_stuck and state is not None and callback is not None:
+            note(
+                f"{callback.name} of {state.name} has not returned, and cannot be interrupted "
+                "while it sleeps or waits. Until it returns, no other callback of its callback "
+                "group runs."
+            )
         self.virtual.now, self.live = self.now(), None
         self._change_executor(None)
         self.virtual.look_anew()
@@ -685,6 +711,7 @@ class SessionCore:
         if self.graph_observer is not None:
             self.graph_observer.destroy_node()
         self.context.end()
+        close_host(self)
 
     # Watching what nodes make.
 
@@ -805,7 +832,26 @@ class SessionCore:
         if self.external_messages is not None:
             self.external_messages.watch_publisher(publisher)
 
-    def _logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
+    # What the loggers ask and tell; see `logs.LogHost`.
+
+    def has_this_thread(self) -> bool:
+        """Return whether its nodes run, or would run, in the calling thread."""
+        is_live_thread = self.live is not None and self.live.is_this_thread()
+        return is_live_thread or get_ident() == self.virtual.thread
+
+    def runs_here(self) -> bool:
+        """Return whether code of its nodes is running in the calling thread."""
+        if self.live is not None and self.live.is_this_thread():
+            return True
+        return self.virtual.in_callback
+
+    def process_here(self) -> Process | None:
+        """Return the simulated process whose code is running, or None if a cell is."""
+        call = self.virtual.current if self.live is None else None
+        return None if call is None else call.process
+
+    def logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
+        """Record a line; print it at once, in virtual time."""
         self.recorder.logs.append(LogRecord(self.now(), level, name, text, function, line))
         self.sent("subscription", "/rosout")
         if self.live is None:

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 
-from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
+from rosbeat.diagnosis.findings import LINK, NEAR, NODE, TOPIC, TWINS, Mark
+from rosbeat.diagnosis.silence import Explanation
 from rosbeat.errors import PictureError, called_as
 from rosbeat.records import (
     ACTION_PART,

@@ -13,8 +13,8 @@ from rosbeat.clinic.charts import chart_of
 from rosbeat.clinic.faults import CASES, HEARD, PAIR, SILENT, BrokenSystem
 from rosbeat.clinic.patients import Patient, Ward
 from rosbeat.clinic.systems import OVERSHOOT, PLACES, STEP
+from rosbeat.diagnosis.findings import NODE
 from rosbeat.diagnosis.qos import incompatible
-from rosbeat.diagnosis.silence import NODE
 from rosbeat.errors import ExerciseError
 
 SEEDS = (1, 2)

@@ -23,9 +23,17 @@ from diagnosis_scenes import (
 from parsed_html import Parsed
 from record_builders import STRING
 from rosbeat.diagnosis import silence
+from rosbeat.diagnosis.findings import difference, nearest, sides_of
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
-from rosbeat.diagnosis.silence import WELL, difference, explain, nearest, report, sides_of
-from rosbeat.diagnosis.topic_snapshot import Beat, Condition, OtherDomain, StaleBuild, rate_of
+from rosbeat.diagnosis.silence import WELL, explain, report
+from rosbeat.diagnosis.topic_snapshot import (
+    Beat,
+    Condition,
+    OtherDomain,
+    StaleBuild,
+    Unreturned,
+    rate_of,
+)
 from rosbeat.records import QoS
 
 # Names that are almost the same.
@@ -71,6 +79,16 @@ def lost(number):
 
 def unrun(state):
     return silent(Condition("/sensor", state, callback="publish"))
+
+
+SLEEPS = Unreturned("/sensor", "act", seconds(3), "sleep", seconds(1003))
+
+
+def late(held=SLEEPS, behind=6, **more):
+    """A monitor that has not got its newest messages."""
+    more = {"behind_ns": seconds(6), "newest": 9, "arrived": 3, **more}
+    beat = heard(3, last=3.0, since=9, behind=behind, held=held, **more)
+    return scene(pub(), sub(), beats=(spoke(), beat))
 
 
 def clash(offered=None, asked=None):
@@ -127,11 +145,101 @@ CASES = {
     "has ended": (silent(ended()), "node-ended",
         ["/sensor has ended.", "At 3 s publish raised ZeroDivisionError: division by zero.",
          "Line 5: `1 / 0`"]),
-    "ended itself": (silent(Condition("/sensor", "ended")), "node-ended", ["rclpy.shutdown()"]),
+    "ended itself": (
+        silent(Condition("/sensor", "ended", callback="publish", cause="shut down")), "node-ended",
+        ["/sensor called rclpy.shutdown() in publish, which ended the node."]),
+    "ended, and nobody knows how": (
+        silent(Condition("/sensor", "ended")), "node-ended", ["how is not known"]),
+    "a neighbor raised": (
+        silent(replace(ended("/sensor"), callback="act", cause="raised", culprit="/other")),
+        "node-ended",
+        ["At 3 s publish of /other raised ZeroDivisionError: division by zero.",
+         "/sensor ran in the same process, which ended with it.", "the cell that adds the nodes"]),
+    "a neighbor shut down": (
+        silent(Condition("/sensor", "ended", None, "act", "shut down", "/other")), "node-ended",
+        ["act of /other called rclpy.shutdown(), which ends its process. /sensor ran in the same"]),
+    "interrupted": (
+        silent(Condition("/sensor", "ended", None, "act", "interrupted")), "node-ended",
+        ["act was interrupted before it had returned, which ended the node."]),
+    "a neighbor was interrupted": (
+        silent(Condition("/sensor", "ended", None, "act", "interrupted", "/other")), "node-ended",
+        ["act of /other was interrupted", "/sensor ran in the same process"]),
     "paused": (unrun("paused"), "not-spun", ['ros.resume("sensor")']),
     "not added": (unrun("not added"), "not-spun", ["ros.add(...)"]),
     "no answer": (unrun("no answer"), "not-spun", ["rclpy.spin(node)"]),
     "blocked": (unrun("blocked"), "callback-blocks", ["no `time.sleep`"]),
+    # Callbacks that have not returned.
+    "a publisher's node sleeps": (
+        scene(pub(), sub(), beats=(spoke(number=3, last=3.0, held=SLEEPS), heard(3, last=3.0))),
+        "callback-blocks",
+        ["act of /sensor began at 3 s and has not returned; it sleeps until 1003 s.",
+         "it has published no message since 3 s"]),
+    "it slept before its first message": (
+        scene(pub(), sub(), beats=(spoke(number=0, held=SLEEPS), heard(0, since=0))),
+        "callback-blocks", ["it has published no message yet"]),
+    "it slept after its only message": (
+        scene(pub(), sub(), timers=(timer(1),), beats=(
+            spoke(number=1, last=3.0, rate=0.0, held=SLEEPS), heard(1, last=3.0))),
+        "callback-blocks", ["no message since 3 s"]),
+    "a publisher's node sleeps now and then": (
+        scene(pub(), sub(), beats=(spoke(held=SLEEPS), heard())), "", []),
+    "a subscriber sleeps": (late(), "callback-blocks",
+        ["/monitor hears nothing until then: 6 messages have come since its callback last ran, at "
+         "3 s."]),
+    "a subscriber waits in a loop": (
+        late(replace(SLEEPS, until_ns=seconds(10.5), again=True)), "callback-blocks",
+        ["it sleeps until 10.5 s, and not for the first time."]),
+    "a response that cannot come": (
+        late(replace(SLEEPS, waits_for="a response from /add", until_ns=None, in_vain="which is")),
+        "callback-blocks",
+        ["it waits for a response from /add, which is. /monitor", "a callback group of its own"]),
+    "a response that comes late": (
+        late(replace(SLEEPS, waits_for="a response from /add", until_ns=seconds(20))),
+        "callback-blocks", ["it waits for a response from /add, until 20 s at most."]),
+    "nobody knows what it waits for": (
+        late(replace(SLEEPS, since_ns=-1, waits_for="", until_ns=None)), "callback-blocks",
+        ["act of /sensor has not returned. /monitor hears"]),
+    "a main that does not spin": (late(replace(SLEEPS, is_main=True)), "not-spun",
+        ["The main function of its program has waited since 3 s; it sleeps until 1003 s."]),
+    "a main that spins others": (
+        late(replace(SLEEPS, is_main=True, waits_for="spin", until_ns=None)), "not-spun",
+        ["The main function of its program has spun since 3 s, but not this node."]),
+    "none has returned": (
+        scene(pub(), sub(), beats=(
+            spoke(number=1), heard(1, since=1, running=1, held=SLEEPS))),
+        "callback-blocks", ["None of the calls of /monitor's callback has returned."]),
+    "a message has only just come": (
+        late(behind=1, behind_ns=seconds(0.5), newest=10, arrived=9), "", []),
+    "one has waited for long": (
+        late(behind=1, behind_ns=seconds(5), newest=1, arrived=0), "callback-blocks",
+        ["1 message has come"]),
+    "slow": (late(behind=2, newest=19, arrived=8, waited_ns=seconds(18)), "slow-callback",
+        ["/monitor does not keep up with the messages.",
+         "Of the 19 newest messages, 8 have reached the callback of /monitor.",
+         "its queue, which holds 10, or wait there. Meanwhile, callbacks of its process waited"]),
+    "paused for a while": (
+        late(held=None, behind=0, newest=20, arrived=5, at_once=1), "slow-callback", ["paused"]),
+    "a burst": (
+        late(held=None, behind=0, newest=20, arrived=10, at_once=10), "",
+        ["All is well on /temperature: of the 20 newest messages, 10 arrived at /monitor."]),
+    "nobody knows why it is late": (
+        late(held=None, newest=6, arrived=0), UNKNOWN, ["6 messages were published"]),
+    "live, it hears nothing of other processes": (
+        replace(late(held=None, behind=0, newest=0, unheard=5), virtual=False), UNKNOWN,
+        ["5 messages were published"]),
+    "live, a callback keeps it from hearing them": (
+        replace(late(behind=0, newest=0, unheard=5), virtual=False), "callback-blocks",
+        ["5 messages have come"]),
+    "in virtual time, nothing comes from other processes": (
+        scene(pub(), sub(), own={"/monitor"}, beats=(spoke(), heard(2, last=1.0))), "not-spun",
+        ["/sensor publishes in another process", "ros.start()"]),
+    "in virtual time, it has only just come": (
+        scene(pub(), sub(), own={"/monitor"}, beats=(spoke(), heard(2, last=10.0))), "", []),
+    "a listener of another process": (
+        elsewhere(well()), "", ["1 message a second is sent to /monitor."]),
+    "listeners of another process, and no rate": (
+        elsewhere(scene(pub(), sub(), beats=(spoke(rate=0.0),))), "",
+        ["10 messages were sent to /monitor so far."]),
     "who blocks need not be on the topic": (
         replace(BUSY, own=BUSY.own | {"/busy"}, virtual=False), "callback-blocks",
         ["neither does any other node of the session"]),
