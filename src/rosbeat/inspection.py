@@ -34,9 +34,10 @@ from rosbeat.ros.graph import (
     poll,
 )
 from rosbeat.ros.listening import Heard, listen, look_into
-from rosbeat.ros.processes import Call, Entry, NodeState, is_free
+from rosbeat.ros.processes import Entry, NodeState, is_free
 from rosbeat.ros.qos_events import limit_ns
 from rosbeat.ros.session_core import SessionCore
+from rosbeat.ros.waits import Call
 
 #: A live callback that runs for so many seconds of wall time blocks the others.
 _BLOCKING_SECONDS = 1.0
@@ -189,7 +190,7 @@ def _other_spin(state: NodeState) -> Unreturned | None:
     """Return the `main` of a program that spins other nodes than this one."""
     for call in state.process.calls if state.process.program is not None else ():
         if call.idle and call.entry is None and call.wait is not None:
-            began, until = call.wait.began_ns, call.wait.until_ns
+            began, until = call.began_ns, call.wait.until_ns
             return Unreturned(state.name, call.name, began, SPIN, until, is_main=True)
     return None
 
