@@ -48,8 +48,8 @@ PART_OF = {
     "local_server": "grading",
     "jupyter_lease": "environment",
     "page_errors": "page_session",
-    "testing": "page_session",
-    "pytest_plugin": "page_session",
+    "testing": "ros",
+    "pytest_plugin": "ros",
 }
 #: The package's own `__init__` hands out names of other rooms, and `scenarios` keeps an old one.
 LEFT_OUT = {"rosbeat", "scenarios"}

@@ -32,16 +32,12 @@ MAY_IMPORT = {
     "comparisons": {"records", "errors"},
     "bags": {"records", "errors", "comparisons", "ros"},
     "viz": {"records", "errors", "diagnosis", "comparisons"},
-    # Of diagnosis only what names a fault and what it is told of a topic, as plain data.
-    "ros": {
-        *("errors", "records", "environment", "domains"),
-        *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.topic_snapshot"),
-    },
+    "ros": {"records", "errors", "environment", "domains", "diagnosis.topic_snapshot"},
     "panel": {"records", "errors", "viz", "ros"},
     "page_errors": {"errors", "records", "diagnosis"},
     "record_display": {"records"},
-    "page_session": {"errors", "ros", "diagnosis", "panel"},
-    "testing": {"errors", "records", "ros", "page_session"},
+    "page_session": {"errors", "records", "ros", "diagnosis", "panel"},
+    "testing": {"errors", "records", "ros"},
     "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis"},
     "new_command": {"errors"},
@@ -65,6 +61,9 @@ MAY_IMPORT = {
         *("workspace", "bags", "clinic", "jupyter_lease"),
     },
 }
+#: What `pip install rosbeat` installs with all that it needs: for tests of any ROS developer.
+ENGINE = {"rosbeat", "errors", "environment", "domains", "records", "ros", "testing",
+          "pytest_plugin"}  # fmt: skip
 #: `cli` may import everything, and nobody may import `cli`.
 EVERYWHERE = {"cli", "__main__"}
 #: Rooms that use nothing but the standard library, and those with a short list.
@@ -334,6 +333,42 @@ def test_the_picture_of_the_rooms_is_up_to_date():
     finally:
         del sys.modules[spec.name]
     assert drawn == drawing.PICTURE.read_text(encoding="utf-8"), "run docs/draw_architecture.py"
+
+
+def test_a_session_of_a_test_loads_nothing_of_the_course():
+    """In a fresh interpreter, which has done what a test with the fixture does."""
+    code = """
+import sys
+import pytest, rclpy, rclpy.action
+known = set(sys.modules)
+import rosbeat.pytest_plugin
+from rclpy.node import Node
+from rosbeat.testing import TestSession
+
+def fail():
+    raise ValueError
+
+with TestSession(seed=1) as session:
+    session.add(lambda: Node("node"))
+    session.spawn(fail, check=False)
+    session.run(1)
+    session.set_parameters("node", {"use_sim_time": True})
+    session.observation()
+print(*sorted(set(sys.modules) - known))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    loaded = set(done.stdout.split())
+    assert "rosbeat.ros.session" in loaded
+    assert {room_of(name) for name in loaded if name.split(".")[0] == "rosbeat"} <= ENGINE
+    engine, others = set(), set()
+    for module, source in package().items():
+        tops = {name.split(".")[0] for name in imports(source, package())}
+        (engine if room_of(module) in ENGINE else others).update(tops)
+    # Each class of messages needs NumPy.
+    of_the_course = others - engine - sys.stdlib_module_names - {"numpy"}
+    assert {"IPython", "matplotlib", "msgspec", "rosbags", "jinja2"} <= of_the_course
+    assert {name.split(".")[0] for name in loaded} & of_the_course == set()
 
 
 def test_no_file_names_a_machine():

@@ -1,20 +1,36 @@
-"""The session of a page: one of `rosbeat.ros` that can also explain itself and open a panel."""
+"""The session of a page: one of `rosbeat.ros` that knows mistakes, explains, and opens a panel."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.diagnosis.silence import Explanation
 from rosbeat.diagnosis.silence import explain as explain_scene
 from rosbeat.errors import called_as
+from rosbeat.records import Fault
 from rosbeat.ros import session
 from rosbeat.ros.context import show_briefly
-from rosbeat.ros.errors import duration_ns
+from rosbeat.ros.errors import Advice, Console, duration_ns
 from rosbeat.ros.inspection import inspect_topic
 from rosbeat.ros.session_core import full_topic
 
 if TYPE_CHECKING:
     from rosbeat.panel.panel import Panel
+
+
+class PageConsole(Console):
+    """Print what happens in a session of a page, and recognize the mistakes of beginners."""
+
+    add_again = "run the cell that adds the node again."
+    create_again = "run the cell again."
+
+    def explain(self, fault: Fault) -> Advice | None:
+        """Return which known mistake an exception comes from; None if it is none of them."""
+        known = meaning_of(fault)
+        if known is None:
+            return None
+        return Advice(first_sentence(fault.text), known.evidence, known.hint)
 
 
 class Session(session.Session):
@@ -47,6 +63,8 @@ class Session(session.Session):
     Raises:
         SessionError: If the seed or the domain id is not an integer in its range.
     """
+
+    _console_class = PageConsole
 
     @called_as('ros.explain("temperature")')
     def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:

@@ -1,13 +1,17 @@
-"""Run real ROS nodes in a page: the session."""
+"""Run real ROS nodes in virtual time or live: the session."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast, overload
 from weakref import finalize
 
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 
 from rosbeat.domains import LAST_DOMAIN
@@ -16,6 +20,7 @@ from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
 from rosbeat.ros.errors import (
+    Console,
     check_name,
     check_whole,
     duration_ns,
@@ -38,23 +43,53 @@ if TYPE_CHECKING:
 
 SomeNode = TypeVar("SomeNode", bound=Node)
 
+
+def _choose_threads(original: Callable[..., None]) -> Callable[..., None]:
+    """Return a constructor of `MultiThreadedExecutor` that takes its threads from the session."""
+
+    @wraps(original)
+    def init(
+        executor: MultiThreadedExecutor,
+        num_threads: int | None = None,
+        *,
+        context: Context | None = None,
+    ) -> None:
+        core = getattr(context or rclpy.get_default_context(), "session_core", None)
+        if num_threads is None and core is not None:
+            num_threads = core.threads
+        original(executor, num_threads, context=context)
+
+    return init
+
+
 install_learner_calls()
 spinning.install()
+if not hasattr(MultiThreadedExecutor.__init__, "__wrapped__"):
+    MultiThreadedExecutor.__init__ = _choose_threads(MultiThreadedExecutor.__init__)
 
 
 class Session:
-    """Run ROS nodes inside a page, in virtual time or live, and record what they do.
+    """Run ROS nodes in virtual time or live, and record what they do.
 
-    The pages' own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
+    `rosbeat.testing` has the session of a test, and `rosbeat.page_session` that of a page, which
+    also explains the arguments.
     """
 
+    #: What prints and explains; a subclass has one of its own.
+    _console_class: ClassVar[type[Console]] = Console
+
     @called_as("Session(seed=7)")
-    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
+    def __init__(
+        self, *, seed: int = 0, domain_id: int | None = None, threads: int | None = None
+    ) -> None:
         check_whole("seed", seed, 0, 2**63)
+        if threads is not None:
+            check_whole("threads", threads, 2, 1000)
         if domain_id is not None:
             check_whole("domain_id", domain_id, 0, LAST_DOMAIN)
         self._seed = seed
-        self._core = SessionCore(seed, domain_id)
+        self._core = SessionCore(seed, domain_id, self._console_class())
+        self._core.threads = threads
         # Also runs at interpreter exit, before the middleware is torn down.
         self._finalizer = finalize(self, self._core.close)
 
@@ -87,6 +122,11 @@ class Session:
     def is_live(self) -> bool:
         """Return whether the nodes run against the wall clock now."""
         return self._core.live is not None
+
+    @property
+    def has_ended(self) -> bool:
+        """Return whether the session is closed."""
+        return self._core.closed
 
     @property
     def nodes(self) -> tuple[Node, ...]:
@@ -265,7 +305,7 @@ class Session:
                 raise session_is_live()
             self._core.console.begin(quiet)
             try:
-                self._core.virtual.run_until(self._core.now() + span)
+                self._run_nodes(self._core.now() + span)
             except KeyboardInterrupt as interrupt:
                 ended = self._core.break_endless_off(interrupt)
                 usual = f"stopped at {self.time:g} s; the session is still open."
@@ -442,6 +482,10 @@ class Session:
         )
 
     # How it works.
+
+    def _run_nodes(self, end_ns: int, done: Callable[[], object] | None = None) -> None:
+        """Run until a time, in nanoseconds, or until something is true."""
+        self._core.virtual.run_until(end_ns, done)
 
     @contextmanager
     def _running(self, what: str, code: Iterable[object] = ()) -> Iterator[None]:
