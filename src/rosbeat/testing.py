@@ -348,7 +348,8 @@ class TestSession(Session):
         """Run the nodes until something is true, and return it.
 
         Args:
-            predicate: What to look at; it is called at the beginning, and after each callback.
+            predicate: What to look at; it is called at the beginning, and whenever no message is on
+                its way.
             within: Virtual seconds after which to give up.
 
         Raises:
@@ -367,8 +368,8 @@ class TestSession(Session):
         if not values[0]:
             raise TimeUpError(
                 f"{_source_of(predicate)} is still {values[0]!r} after {within:g} s.",
-                f"The nodes ran from {begun:g} s to {self.time:g} s, and it was looked at after "
-                "each callback.",
+                f"The nodes ran from {begun:g} s to {self.time:g} s, and it was looked at whenever "
+                "no message was on its way.",
                 "Look at `logs()` and `messages(...)` for what the nodes did, or give them more "
                 "time with `within`.",
             )
