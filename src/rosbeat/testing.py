@@ -30,7 +30,7 @@ from rosbeat.errors import (
     called_as,
 )
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, Fault, LogRecord, Sample
-from rosbeat.ros.errors import Console, check_name, duration_ns, nearest
+from rosbeat.ros.errors import Console, check_name, check_whole, duration_ns, nearest
 from rosbeat.ros.session import Session
 from rosbeat.ros.tester import Tester, message, parameters_request, profile
 
@@ -210,9 +210,16 @@ class TestSession(Session):
     in `rosbeat.ros.session.Session`, which `docs/testing.md` introduces.
 
     Args:
+        seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
+            global generator.
         threads: How many threads a `MultiThreadedExecutor()` has whose program gives no number;
             rclpy itself takes the machine's number of processors.
-        options: Those of `Session`, such as `seed`.
+        domain_id: The ROS domain to join, to talk with real processes in live mode. By default a
+            session is private.
+
+    Raises:
+        SessionError: If an option is not a whole number in its range, or the middleware is not
+            Fast DDS.
     """
 
     #: Tells pytest that this is no class of tests.
@@ -221,8 +228,12 @@ class TestSession(Session):
     _tester: Tester | None = None
 
     @called_as("TestSession(seed=7)")
-    def __init__(self, *, threads: int = THREADS, **options: Any) -> None:  # noqa: ANN401 - of any type
-        super().__init__(threads=threads, **options)
+    def __init__(
+        self, *, seed: int = 0, threads: int = THREADS, domain_id: int | None = None
+    ) -> None:
+        check_whole("threads", threads, 2, 1000, "TestSession(threads=4)")
+        super().__init__(seed=seed, domain_id=domain_id)
+        self._core.threads = threads
         _open_sessions.add(self)
 
     @property

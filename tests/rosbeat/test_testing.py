@@ -15,6 +15,7 @@ from rclpy.action import ActionServer
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Float32, Int32
 from std_srvs.srv import SetBool, Trigger
 from test_msgs.action import Fibonacci
@@ -285,7 +286,7 @@ def test_a_goal_whose_work_raises_fails_the_test(virtual_ros):
         assert virtual_ros.send_goal("fibonacci", {"order": 3}).status == "ABORTED"
 
 
-def test_a_callback_that_waits_forever_fails_the_test(virtual_ros):
+def test_a_callback_that_waits_for_its_own_executor_fails_the_test(virtual_ros):
     virtual_ros.add(Server)
 
     class Asker(Node):
@@ -297,6 +298,24 @@ def test_a_callback_that_waits_forever_fails_the_test(virtual_ros):
     virtual_ros.add(Asker)
     with pytest.raises(DeadlockError, match="/asker waits"):
         virtual_ros.run(5)
+
+
+def test_a_callback_may_wait_for_what_the_test_does_next(virtual_ros):
+    class Starter(Node):
+        def __init__(self):
+            super().__init__("starter")
+            self.timer = self.create_timer(1.0, self.start)
+
+        def start(self):
+            self.timer.cancel()
+            _, message = wait_for_message(Float32, self, "go")
+            self.get_logger().info(f"go at {message.data}")
+
+    virtual_ros.add(Starter)
+    virtual_ros.run(5)
+    virtual_ros.publish("go", Float32(data=3.0))
+    virtual_ros.run(1)
+    assert [(line.time, line.text) for line in virtual_ros.logs()] == [(5.0, "go at 3.0")]
 
 
 @pytest.mark.parametrize("code", [0, None])
@@ -643,6 +662,13 @@ def test_an_executor_without_a_number_has_the_threads_of_the_session(virtual_ros
 def test_an_option_that_cannot_be_is_refused(options, error):
     with pytest.raises(error):
         TestSession(**options)
+
+
+def test_another_middleware_is_refused(monkeypatch, says):
+    monkeypatch.setattr(rclpy, "get_rmw_implementation_identifier", lambda: "rmw_cyclonedds_cpp")
+    with pytest.raises(SessionError) as raised:
+        TestSession()
+    says(raised.value, "this process uses rmw_cyclonedds_cpp", "RMW_IMPLEMENTATION=rmw_fastrtps")
 
 
 # Nothing of the course.

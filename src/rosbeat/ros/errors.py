@@ -13,6 +13,7 @@ from math import inf, isfinite
 from numbers import Real
 from typing import TYPE_CHECKING, NamedTuple
 
+import rclpy
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
@@ -39,6 +40,8 @@ INSTEAD_OF_WAITING = (
     "and await the future, with the client in its own callback group. To do something "
     "repeatedly, create a timer."
 )
+#: The only middleware that delivers a message within `publish`.
+MIDDLEWARE = "rmw_fastrtps_cpp"
 #: About 31 years; a longer span is a slip.
 _LONGEST = 1e9
 
@@ -59,6 +62,23 @@ def check_whole(name: str, value: object, low: int, high: int, example: str = ""
         f"It must be a whole number from {low} to {high if high < 2**63 else 'about 9e18'}.",
         f"For example, write {example or f'Session({name}=7)'}.",
     )
+
+
+def check_middleware() -> None:
+    """Check that the middleware is Fast DDS.
+
+    Raises:
+        SessionError: If it is another one.
+    """
+    name = rclpy.get_rmw_implementation_identifier()
+    if name != MIDDLEWARE:
+        raise SessionError(
+            f"A session needs the middleware {MIDDLEWARE}, and this process uses {name}.",
+            "Virtual time counts on a message being there when `publish` returns, as it is with "
+            "Fast DDS.",
+            f"Set RMW_IMPLEMENTATION={MIDDLEWARE} before Python starts. It is in the package "
+            f"ros-jazzy-{MIDDLEWARE.replace('_', '-')}.",
+        )
 
 
 def check_name(call: str, value: object) -> str:

@@ -21,6 +21,7 @@ from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
 from rosbeat.ros.errors import (
     Console,
+    check_middleware,
     check_name,
     check_whole,
     duration_ns,
@@ -79,17 +80,13 @@ class Session:
     _console_class: ClassVar[type[Console]] = Console
 
     @called_as("Session(seed=7)")
-    def __init__(
-        self, *, seed: int = 0, domain_id: int | None = None, threads: int | None = None
-    ) -> None:
+    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
         check_whole("seed", seed, 0, 2**63)
-        if threads is not None:
-            check_whole("threads", threads, 2, 1000)
+        check_middleware()
         if domain_id is not None:
             check_whole("domain_id", domain_id, 0, LAST_DOMAIN)
         self._seed = seed
         self._core = SessionCore(seed, domain_id, self._console_class())
-        self._core.threads = threads
         # Also runs at interpreter exit, before the middleware is torn down.
         self._finalizer = finalize(self, self._core.close)
 
