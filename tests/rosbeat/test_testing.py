@@ -43,7 +43,6 @@ EXAMPLES = re.findall(
     r"(?ms)^(?:<!-- waits for: ([^\n]*) -->\n)?```python\n(.*?)^```",
     (ROOT / "docs" / "testing.md").read_text("utf-8"),
 )
-FINISHED = ROOT / "solutions" / "sensor_simulator" / "sensor_simulator"
 OPTIONS = ("-q", "-p", "no:cacheprovider", "-W", "error", "-W", "ignore::DeprecationWarning")
 
 
@@ -59,8 +58,6 @@ def run_pytest(folder, *arguments):
 def write(folder, examples):
     for number, example in enumerate(examples):
         (folder / f"test_example_{number}.py").write_text(example, "utf-8")
-    node = (FINISHED / "temperature_subscriber.py").read_text("utf-8")
-    (folder / "monitor.py").write_text(node, "utf-8")
 
 
 # The examples of the page.
