@@ -277,6 +277,24 @@ def unnamed_errors(sources):
     return said
 
 
+#: Words of the course, which mean nothing to whoever tests nodes.
+OF_PAGES = re.compile(r"\b(cells?|pages?|notebooks?|learners?)\b")
+
+
+def words_of_pages(sources):
+    """Texts of the engine that speak of pages; docstrings and comments may."""
+    said = []
+    for module, source in sources.items():
+        if room_of(module) not in ENGINE - {"rosbeat", "environment", "domains"}:
+            continue
+        tree = ast.parse(source)
+        docs = {node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        said += [f"{module}: {node.value}" for node in ast.walk(tree)
+                 if isinstance(node, ast.Constant) and isinstance(node.value, str)
+                 and node not in docs and OF_PAGES.search(node.value)]  # fmt: skip
+    return said
+
+
 #: A comment that silences a checker, at the end of its line.
 BARE = re.compile(
     r"#\s*(?:noqa(?::\s*[A-Z]+\d+(?:,\s*[A-Z]+\d+)*)?|type:\s*ignore(?:\[[\w, -]+\])?)\s*$"
@@ -314,7 +332,7 @@ def tracked():
 # The rules hold.
 
 RULES = [wrong_directions, unknown_rooms, rclpy_outside_ros, foreign_imports, cycles,
-         not_a_verb, unnamed_errors, unexplained]  # fmt: skip
+         not_a_verb, unnamed_errors, unexplained, words_of_pages]  # fmt: skip
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -398,6 +416,8 @@ BAD = {
     "a noun phrase": (not_a_verb, "rosbeat.a", 'class A:\n """A bag of words."""'),
     "no reason": (unexplained, "rosbeat.a", "import a  # noqa: F401"),
     "no reason, types": (unexplained, "rosbeat.a", "a = b()  # type: ignore[misc, unused-ignore]"),
+    "a text of a page": (words_of_pages, "rosbeat.ros.a",
+                         'def f():\n """A cell."""\n a("A cell.")'),
     "the third person": (not_a_verb, "rosbeat.a", 'class A:\n """Publishes a status."""'),
     "a name of a method": (not_a_verb, "rosbeat.a",
                            'class A:\n """Hold a."""\n def b(self):\n  """`f` of x."""'),

@@ -472,6 +472,23 @@ def test_an_exception_of_the_condition_is_the_tests(virtual_ros):
     assert len(virtual_ros.messages("count")) == 3
 
 
+def test_an_exception_ends_a_wait_in_live_mode(virtual_ros):
+    node = virtual_ros.add(lambda: Node("live"))
+    node.create_timer(0.01, lambda: 1 / 0)
+    virtual_ros.start()
+    with pytest.raises(ZeroDivisionError):
+        virtual_ros.wait(30)
+    assert virtual_ros.time < 30
+
+
+def test_a_live_session_waits_for_a_condition(virtual_ros):
+    ticks = []
+    node = virtual_ros.add(lambda: Node("live"))
+    node.create_timer(0.01, lambda: ticks.append(1))
+    virtual_ros.start()
+    assert virtual_ros.wait(30, until=lambda: len(ticks) > 2)
+
+
 # Services, actions and parameters.
 
 

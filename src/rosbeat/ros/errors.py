@@ -370,7 +370,9 @@ class Console:
             f"{self.add_again}",
         )
 
-    def construction_error(self, name: str, fault: Fault, error: BaseException) -> RosbeatError:
+    def construction_error(
+        self, name: str, fault: Fault, error: BaseException
+    ) -> NodeConstructionError:
         """Return the error for a constructor that raised, in three parts."""
         known = self.explain(fault)
         if isinstance(error, RosbeatError):
