@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from nav_msgs.msg import Path as NavigationPath
 from rclpy.action import ActionServer
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
@@ -417,6 +418,20 @@ def test_what_cannot_be_published_is_explained(virtual_ros, says, arguments, opt
     with pytest.raises(error) as raised:
         virtual_ros.publish(*arguments, **options)
     says(raised.value, words)
+
+
+def test_dicts_fill_fields_of_messages_in_messages(virtual_ros):
+    heard = []
+    node = virtual_ros.add(lambda: Node("navigator"))
+    node.create_subscription(NavigationPath, "path", heard.append, 10)
+    pose = {"pose": {"position": {"x": 1.5}}}
+    virtual_ros.publish("path", {"header": {"frame_id": "map"}, "poses": [pose, pose]})
+    virtual_ros.run(0)
+    (path,) = heard
+    assert (path.header.frame_id, len(path.poses)) == ("map", 2)
+    assert path.poses[1].pose.position.x == 1.5
+    with pytest.raises(SessionError, match="Pose has no field `place`"):
+        virtual_ros.publish("path", {"poses": [{"pose": {"place": 1}}]})
 
 
 def test_a_silent_topic_has_no_messages_and_an_unknown_one_is_an_error(virtual_ros, says):

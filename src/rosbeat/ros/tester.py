@@ -6,6 +6,7 @@ public face.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -39,24 +40,30 @@ def message(type_name: str, value: Any) -> Any:  # noqa: ANN401 - a message of a
     return filled(message_class(type_name), fields)
 
 
-def filled(kind: type, fields: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a message of any type
-    """Return a message with these fields; a dict fills a field that is a message itself.
+def filled(kind: Any, fields: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a class of messages
+    """Return a message with these fields; dicts, also in lists, fill fields that are messages.
 
     Raises:
         AttributeError: If there is no such field.
         AssertionError: If a value does not fit into its field.
     """
-    made, types = kind(), _fields(kind)
+    made, types = kind(), kind.get_fields_and_field_types()
     for name, value in fields.items():
         if name not in types:
             raise AttributeError(f"{kind.__name__} has no field `{name}`.")
-        part = getattr(made, name)
-        setattr(made, name, filled(type(part), value) if isinstance(value, dict) else value)
+        setattr(made, name, _field(value, getattr(made, name), types[name]))
     return made
 
 
-def _fields(kind: Any) -> dict[str, str]:  # noqa: ANN401 - a class of messages
-    return dict(kind.get_fields_and_field_types())
+def _field(value: Any, default: Any, type_name: str) -> Any:  # noqa: ANN401 - of any type
+    """Return the value of a field, whose type is written as in `sequence<std_msgs/String, 3>`."""
+    if isinstance(value, dict):
+        return filled(type(default), value)
+    found = re.search(r"(\w+)/(\w+)", type_name)
+    if found and isinstance(value, list | tuple):
+        kind = message_class(f"{found[1]}/msg/{found[2]}")
+        return [filled(kind, one) if isinstance(one, dict) else one for one in value]
+    return value
 
 
 def profile(qos: QoS | int) -> QoSProfile:
