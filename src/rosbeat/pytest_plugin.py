@@ -37,8 +37,10 @@ def virtual_ros(request: pytest.FixtureRequest) -> Iterator[TestSession]:
     """
     from rosbeat.testing import TestSession
 
-    with TestSession(**_options(request)) as session:
-        yield session
+    session = TestSession(**_options(request))
+    yield session
+    # Not in a `with` block: what nodes have raised was raised in the test, or at its end.
+    session.close()
 
 
 def _options(request: pytest.FixtureRequest) -> dict[str, Any]:

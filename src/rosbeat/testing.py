@@ -37,6 +37,7 @@ from rosbeat.ros.tester import Tester, message, parameters_request, profile
 if TYPE_CHECKING:
     from typing_extensions import Self
 
+    from rosbeat.ros.launch import Launch
     from rosbeat.ros.simulated_program import SimulatedProgram
 
 __all__ = ["ExpectedFault", "GoalResult", "TestSession"]
@@ -171,14 +172,14 @@ class _TestConsole(Console):
             self.pending.append((error, None))
 
     def program_ended(self, program: SimulatedProgram) -> None:
+        code, failure = program.returncode or 0, program.failure
         # A negative code is that of a signal, and only a test sends signals.
-        code = program.returncode
-        if code is None or code <= 0 or program in self.unchecked:
+        if code <= 0 or program in self.unchecked:
             return
-        if program.failure is None:
+        if failure is None:
             self.pending.append((_exit_code_error(program.name, code), program))
-        elif not self._expects(*program.failure):
-            self.pending.append((program.failure[1], program))
+        elif not self._expects(*failure):
+            self.pending.append((failure[1], program))
 
     def leave_unchecked(self, program: SimulatedProgram) -> None:
         """Let a program end as it does; it may have ended already."""
@@ -293,15 +294,13 @@ class TestSession(Session):
 
     # Processes.
 
-    def add(self, *nodes: Any, **start: Any) -> Any:  # noqa: ANN401 - as in `Session.add`
-        """Start a process, as `Session.add` does; what a constructor raises is raised as it is.
-
-        Raises:
-            SessionError: As in `Session.add`.
-        """
+    def _start_process(
+        self, given: tuple[Any, ...], start: Launch, threads: int
+    ) -> tuple[Any, ...]:
+        """Start a process for `add`; what a constructor raises is raised as it is."""
         __tracebackhide__ = True
         try:
-            made = super().add(*nodes, **start)
+            made = super()._start_process(given, start, threads)
         except NodeConstructionError as error:
             cause = error.__cause__
             if cause is None:

@@ -175,6 +175,7 @@ class Session:
             SessionError: If it cannot be started so, or exists already and is to be renamed.
             ClosedSessionError: If the session has ended.
         """
+        __tracebackhide__ = True  # pytest shows the frames of the node, and none of ours
         start = checked(name, namespace, remappings, parameters)
         check_whole("threads", threads, 1, 1000, "ros.add(TemperatureSensor, threads=4)")
         if not nodes:
