@@ -86,7 +86,7 @@ class Session:
         if domain_id is not None:
             check_whole("domain_id", domain_id, 0, LAST_DOMAIN)
         self._seed = seed
-        self._core = SessionCore(seed, domain_id, self._console_class())
+        self._core = SessionCore(seed, domain_id, console=self._console_class())
         # Also runs at interpreter exit, before the middleware is torn down.
         self._finalizer = finalize(self, self._core.close)
 
