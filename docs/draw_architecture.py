@@ -49,8 +49,8 @@ PART_OF = {
     "jupyter_lease": "environment",
     "inspection": "page_session",
     "page_errors": "page_session",
-    "testing": "page_session",
-    "pytest_plugin": "page_session",
+    "testing": "ros",
+    "pytest_plugin": "ros",
 }
 #: The package's own `__init__` hands out names of other rooms, and `scenarios` keeps an old one.
 LEFT_OUT = {"rosbeat", "scenarios"}

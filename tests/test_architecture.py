@@ -32,17 +32,13 @@ MAY_IMPORT = {
     "comparisons": {"records", "errors"},
     "bags": {"records", "errors", "comparisons", "ros"},
     "viz": {"records", "errors", "diagnosis", "comparisons"},
-    # Of diagnosis only what names a fault.
-    "ros": {
-        *("errors", "records", "environment", "domains"),
-        *("diagnosis.calls", "diagnosis.exceptions"),
-    },
+    "ros": {"records", "errors", "environment", "domains"},
     "inspection": {"records", "domains", "ros", "diagnosis"},
     "panel": {"records", "errors", "viz", "ros"},
     "page_errors": {"errors", "records", "diagnosis"},
     "record_display": {"records"},
-    "page_session": {"errors", "ros", "diagnosis", "inspection", "panel"},
-    "testing": {"errors", "records", "ros", "page_session"},
+    "page_session": {"errors", "records", "ros", "diagnosis", "inspection", "panel"},
+    "testing": {"errors", "records", "ros"},
     "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis", "inspection"},
     "new_command": {"errors"},
@@ -66,6 +62,9 @@ MAY_IMPORT = {
         *("workspace", "bags", "clinic", "jupyter_lease"),
     },
 }
+#: What `pip install rosbeat` installs with all that it needs: for tests of any ROS developer.
+ENGINE = {"rosbeat", "errors", "environment", "domains", "records", "ros", "testing",
+          "pytest_plugin"}  # fmt: skip
 #: `cli` may import everything, and nobody may import `cli`.
 EVERYWHERE = {"cli", "__main__"}
 #: Rooms that use nothing but the standard library, and those with a short list.
@@ -279,6 +278,24 @@ def unnamed_errors(sources):
     return said
 
 
+#: Words of the course, which mean nothing to whoever tests nodes.
+OF_PAGES = re.compile(r"\b(cells?|pages?|notebooks?|learners?)\b")
+
+
+def words_of_pages(sources):
+    """Texts of the engine that speak of pages; docstrings and comments may."""
+    said = []
+    for module, source in sources.items():
+        if room_of(module) not in ENGINE - {"rosbeat", "environment", "domains"}:
+            continue
+        tree = ast.parse(source)
+        docs = {node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        said += [f"{module}: {node.value}" for node in ast.walk(tree)
+                 if isinstance(node, ast.Constant) and isinstance(node.value, str)
+                 and node not in docs and OF_PAGES.search(node.value)]  # fmt: skip
+    return said
+
+
 #: A comment that silences a checker, at the end of its line.
 BARE = re.compile(
     r"#\s*(?:noqa(?::\s*[A-Z]+\d+(?:,\s*[A-Z]+\d+)*)?|type:\s*ignore(?:\[[\w, -]+\])?)\s*$"
@@ -316,7 +333,7 @@ def tracked():
 # The rules hold.
 
 RULES = [wrong_directions, unknown_rooms, rclpy_outside_ros, foreign_imports, cycles,
-         not_a_verb, unnamed_errors, unexplained]  # fmt: skip
+         not_a_verb, unnamed_errors, unexplained, words_of_pages]  # fmt: skip
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -335,6 +352,42 @@ def test_the_picture_of_the_rooms_is_up_to_date():
     finally:
         del sys.modules[spec.name]
     assert drawn == drawing.PICTURE.read_text(encoding="utf-8"), "run docs/draw_architecture.py"
+
+
+def test_a_session_of_a_test_loads_nothing_of_the_course():
+    """In a fresh interpreter, which has done what a test with the fixture does."""
+    code = """
+import sys
+import pytest, rclpy, rclpy.action
+known = set(sys.modules)
+import rosbeat.pytest_plugin
+from rclpy.node import Node
+from rosbeat.testing import TestSession
+
+def fail():
+    raise ValueError
+
+with TestSession(seed=1) as session:
+    session.add(lambda: Node("node"))
+    session.spawn(fail, check=False)
+    session.run(1)
+    session.set_parameters("node", {"use_sim_time": True})
+    session.observation()
+print(*sorted(set(sys.modules) - known))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    loaded = set(done.stdout.split())
+    assert "rosbeat.ros.session" in loaded
+    assert {room_of(name) for name in loaded if name.split(".")[0] == "rosbeat"} <= ENGINE
+    engine, others = set(), set()
+    for module, source in package().items():
+        tops = {name.split(".")[0] for name in imports(source, package())}
+        (engine if room_of(module) in ENGINE else others).update(tops)
+    # Each class of messages needs NumPy.
+    of_the_course = others - engine - sys.stdlib_module_names - {"numpy"}
+    assert {"IPython", "matplotlib", "msgspec", "rosbags", "jinja2"} <= of_the_course
+    assert {name.split(".")[0] for name in loaded} & of_the_course == set()
 
 
 def test_no_file_names_a_machine():
@@ -364,6 +417,8 @@ BAD = {
     "a noun phrase": (not_a_verb, "rosbeat.a", 'class A:\n """A bag of words."""'),
     "no reason": (unexplained, "rosbeat.a", "import a  # noqa: F401"),
     "no reason, types": (unexplained, "rosbeat.a", "a = b()  # type: ignore[misc, unused-ignore]"),
+    "a text of a page": (words_of_pages, "rosbeat.ros.a",
+                         'def f():\n """A cell."""\n a("A cell.")'),
     "the third person": (not_a_verb, "rosbeat.a", 'class A:\n """Publishes a status."""'),
     "a name of a method": (not_a_verb, "rosbeat.a",
                            'class A:\n """Hold a."""\n def b(self):\n  """`f` of x."""'),

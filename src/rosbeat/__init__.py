@@ -37,7 +37,10 @@ __all__ = [
 ]
 
 # Before any message class is imported: the field checks are read at that moment.
-environment.apply()
+if "_pytest" in sys.modules and "ipykernel.kernelapp" not in sys.modules:
+    environment.apply_for_tests()
+else:
+    environment.apply()
 if os.environ.get("NBGRADER_EXECUTION"):
     import_module("rosbeat.workspace.location").settle_in()
 # Without loading IPython where there is none.

@@ -35,12 +35,14 @@ class Command:
         arguments: Function that declares the subcommand's arguments on its parser.
         run: Function that does the work and returns the exit code. It imports its dependencies when
             it is called, so that every other subcommand starts quickly.
+        extra: The extra of the package that brings these dependencies.
     """
 
     name: str
     help: str
     arguments: Callable[[argparse.ArgumentParser], None]
     run: Callable[[argparse.Namespace], int]
+    extra: str = "course"
 
 
 def _new_arguments(parser: argparse.ArgumentParser) -> None:
@@ -265,18 +267,22 @@ COMMANDS: tuple[Command, ...] = (
     Command(
         *("release", "make what learners get: pages, no answers"),
         *(_release_arguments, _grading("commands", "run_release")),
+        extra="class",
     ),
     Command(
         *("collect", "say who has handed in what"),
         *(_collect_arguments, _grading("commands", "run_collect")),
+        extra="class",
     ),
     Command(
         *("grade", "judge what a class has handed in"),
         *(_grade_arguments, _grading("commands", "run_grade")),
+        extra="class",
     ),
     Command(
         *("class", "show where a class is stuck, live"),
         *(_class_arguments, _grading("class_board", "run")),
+        extra="class",
     ),
     Command("share", "let your class see where you are", _share_arguments, _share),
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
@@ -353,7 +359,12 @@ def _run(typed: list[str]) -> int:
     if options.command is None:
         parser.print_help()
         return 0
-    return int(options.run(options))
+    try:
+        return int(options.run(options))
+    except ModuleNotFoundError as error:
+        if not _is_foreign(error.name or ""):
+            raise
+        raise _not_installed(options.command, error.name or "") from error
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -378,6 +389,30 @@ def _require_known(typed: list[str]) -> None:
         f"rosbeat has no command {typed[0]!r}.",
         "Nothing else was looked at, and nothing was done.",
         f"{meant}The commands are: {', '.join(names)}.",
+    )
+
+
+def _is_foreign(module: str) -> bool:
+    """Return whether a module is neither ours nor Python's."""
+    top = module.partition(".")[0]
+    return top not in ("", "rosbeat") and top not in sys.stdlib_module_names
+
+
+def _not_installed(name: str, module: str) -> RosbeatError:
+    """Return the error for a package that an extra of rosbeat would have brought."""
+    (extra,) = (command.extra for command in COMMANDS if command.name == name)
+    top = module.partition(".")[0]
+    if top == "rclpy" or top.endswith(("_msgs", "_interfaces")):
+        return RosbeatError(
+            f"`rosbeat {name}` needs ROS 2, and this Python has no module {top!r}.",
+            "Either no ROS 2 is installed for this Python, or it was not sourced.",
+            f'Source your ROS 2, or install its wheels:  pip install "rosbeat[{extra},ros]"',
+        )
+    return RosbeatError(
+        f"`rosbeat {name}` needs the package {top!r}, which is not installed.",
+        "`pip install rosbeat` brings what tests of your own nodes need; the commands of the "
+        f"course need its extra `{extra}`.",
+        f'Install the extra:  pip install "rosbeat[{extra}]"',
     )
 
 

@@ -25,6 +25,7 @@ __all__ = [
     "DOMAIN",
     "SHARED_DOMAINS",
     "apply",
+    "apply_for_tests",
     "defaults",
     "discovery_profile",
     "domain_id",
@@ -48,6 +49,9 @@ _PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 #: Makes ROS take from that file how much memory a topic gets; see there.
 _FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
 _COLCON = "COLCON_DEFAULTS_FILE"
+_CHECKS = "ROS_PYTHON_CHECK_FIELDS"
+#: What sessions need, and tests without one do not mind.
+_OF_SESSIONS = (_PATH, _PROFILE, _FROM_PROFILE, _CHECKS)
 _INSTALLATION = ("RMW_IMPLEMENTATION", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION")
 
 
@@ -109,14 +113,15 @@ def _checksum(prefix: str | None, user: str | None = None) -> int:
 def discovery_profile() -> str:
     """Return the settings of Fast DDS that let two processes find each other at once.
 
+    They also let two sessions of one process use one topic name for two types.
+
     Returns:
-        The file, which comes with the `ros2` command in the same checkout, or installed from a
-        wheel beside this package; nothing without it.
+        The file, which in a checkout is that of the `ros2` command, and in a wheel a copy beside
+        this file; nothing without it.
     """
-    file = ("ros2_command", "data", "fastdds.xml")
-    beside = os.path.join(os.path.realpath(__file__).rsplit(os.sep, 2)[0], *file)
-    found = _in_checkout("src", "ros2_command", *file)
-    return found or (beside if os.path.exists(beside) else "")
+    found = _in_checkout("src", "ros2_command", "ros2_command", "data", "fastdds.xml")
+    in_wheel = os.path.join(os.path.dirname(os.path.realpath(__file__)), "fastdds.xml")
+    return found or (in_wheel if os.path.exists(in_wheel) else "")
 
 
 def learners_folder() -> str:
@@ -155,7 +160,7 @@ def _settings(prefix: str | None) -> dict[str, str]:
         # Nodes of this machine see each other; the class's network stays quiet.
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         # Message classes read this when they are imported: `String(data=3)` then says why not.
-        "ROS_PYTHON_CHECK_FIELDS": "1",
+        _CHECKS: "1",
         # Each message package imports NumPy, whose further threads only make nodes start later: no
         # node of the course multiplies matrices.
         "OPENBLAS_NUM_THREADS": "1",
@@ -179,6 +184,22 @@ def other_ros(environ: Mapping[str, str], prefix: str | None = None) -> list[str
     return [
         entry for entry in _entries(environ) if os.path.realpath(entry) != own and _has_rclpy(entry)
     ]
+
+
+def apply_for_tests(environ: MutableMapping[str, str] | None = None) -> dict[str, str]:
+    """Set only what sessions need, and return what was set.
+
+    pytest loads the plugin wherever rosbeat is installed: tests that use no session keep their ROS
+    domain, for example.
+
+    Args:
+        environ: The environment to complete, by default that of this process.
+    """
+    target = os.environ if environ is None else environ
+    complete = dict(target)
+    chosen = {name: value for name, value in apply(complete).items() if name in _OF_SESSIONS}
+    target.update(chosen)
+    return chosen
 
 
 def apply(

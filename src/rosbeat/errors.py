@@ -9,10 +9,15 @@
     │   ├── NodeConstructionError   the node's own constructor raised
     │   ├── DurationError           a time span that is negative, not finite or not a number
     │   ├── UnknownTopicError       nobody published on that topic
+    │   ├── UnknownServerError      no node offers that service or action
+    │   ├── TimeUpError             what a test waits for did not happen in time
+    │   ├── NoFaultError            a callback that a test expects to raise did not
+    │   ├── ExitCodeError           a program ended with an exit code other than 0
+    │   ├── ParameterError          a node refused to set a parameter
     │   ├── EndlessChainError       callbacks cause each other for ever without time passing
     │   ├── DeadlockError           callbacks wait for ever
     │   ├── DomainsExhaustedError   no ROS domain id is left for a check or for terminals
-    │   ├── NoSessionError          a node was made on a page with no session open
+    │   ├── NoSessionError          a node was made in a notebook with no session open
     │   └── ClosedSessionError      the session has ended
     ├── PictureError                a picture cannot be drawn from what it was given
     ├── ExerciseError               a check was asked for an exercise that does not exist
@@ -98,6 +103,26 @@ class UnknownTopicError(SessionError):
     """Signal that nothing was published on the requested topic."""
 
 
+class UnknownServerError(SessionError):
+    """Signal that no node of the session offers the requested service or action."""
+
+
+class TimeUpError(SessionError):
+    """Signal that what a test waits for did not happen in time."""
+
+
+class NoFaultError(SessionError):
+    """Signal that no callback raised the exception that a test expects."""
+
+
+class ExitCodeError(SessionError):
+    """Signal that a program ended with an exit code other than 0."""
+
+
+class ParameterError(SessionError):
+    """Signal that a node refused to set a parameter."""
+
+
 class EndlessChainError(SessionError):
     """Signal that callbacks trigger each other endlessly while no time passes."""
 
@@ -107,7 +132,7 @@ class DomainsExhaustedError(SessionError):
 
 
 class NoSessionError(SessionError):
-    """Signal that a page created a node without an open session or an initialized ROS context."""
+    """Signal that a notebook created a node with no open session and no initialized context."""
 
 
 class ClosedSessionError(SessionError):
@@ -179,6 +204,7 @@ def called_as(example: str) -> Callable[[_Function], _Function]:
     def decorate(function: _Function) -> _Function:
         @wraps(function)
         def called(*values: Any, **named: Any) -> Any:  # noqa: ANN401 - the function's own
+            __tracebackhide__ = True  # pytest leaves this frame out of a traceback
             try:
                 return function(*values, **named)
             except TypeError as error:

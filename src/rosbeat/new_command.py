@@ -13,6 +13,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -22,6 +23,8 @@ __all__ = ["lay_out", "next_steps"]
 
 _COURSE = Path(__file__).resolve().with_name("course")
 _RCLPY = Path("share", "ament_index", "resource_index", "packages", "rclpy")
+#: Of what the extra `course` brings: without these, no page opens, or none gets far.
+_OF_THE_EXTRA = ("jupyterlab", "matplotlib", "msgspec")
 _NOTHING_DONE = "The pages are laid out in a folder of their own. Nothing was changed."
 
 
@@ -36,11 +39,12 @@ def lay_out(folder: Path, pages: Sequence[str] = ()) -> None:
         pages: Pages that somebody has worked in, of which to take the new version.
 
     Raises:
-        RosbeatError: If this is a checkout, if ROS is not installed, or if the folder belongs to
-            something else or cannot be written to.
+        RosbeatError: If this is a checkout, if ROS or the extra is not installed, or if the folder
+            belongs to something else or cannot be written to.
     """
     _require_wheel()
     _require_ros(Path(sys.prefix))
+    _require_extra()
     target = folder.expanduser().absolute()
     is_new = _require_place(target)
     tool = _course_tool()
@@ -85,7 +89,17 @@ def _require_ros(prefix: Path) -> None:
             "Install it in an environment of its own:\n"
             "    python3 -m venv rosbeat-venv\n"
             "    source rosbeat-venv/bin/activate\n"
-            '    pip install "rosbeat[ros]"',
+            '    pip install "rosbeat[course,ros]"',
+        )
+
+
+def _require_extra() -> None:
+    missing = [name for name in _OF_THE_EXTRA if find_spec(name) is None]
+    if missing:
+        raise RosbeatError(
+            f"This Python environment has no {missing[0]}.",
+            "The pages need it, and the extra `course` of rosbeat brings it. Nothing was changed.",
+            'Install the extra:  pip install "rosbeat[course]"',
         )
 
 

@@ -1,20 +1,37 @@
-"""The session of a page: one of `rosbeat.ros` that can also explain itself and open a panel."""
+"""The session of a page: one of `rosbeat.ros` that knows mistakes, explains, and opens a panel."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.diagnosis.silence import Explanation
 from rosbeat.diagnosis.silence import explain as explain_scene
 from rosbeat.errors import called_as
 from rosbeat.inspection import inspect_topic
+from rosbeat.records import Fault
 from rosbeat.ros import session
+from rosbeat.ros.clock import START
 from rosbeat.ros.context import show_briefly
-from rosbeat.ros.errors import duration_ns
+from rosbeat.ros.errors import Advice, Console, duration_ns
 from rosbeat.ros.session_core import full_topic
 
 if TYPE_CHECKING:
     from rosbeat.panel.panel import Panel
+
+
+class PageConsole(Console):
+    """Print what happens in a session of a page, and recognize the mistakes of beginners."""
+
+    add_again = "run the cell that adds the node again."
+    create_again = "run the cell again."
+
+    def explain(self, fault: Fault) -> Advice | None:
+        """Return which known mistake an exception comes from; None if it is none of them."""
+        known = meaning_of(fault)
+        if known is None:
+            return None
+        return Advice(first_sentence(fault.text), known.evidence, known.hint)
 
 
 class Session(session.Session):
@@ -44,12 +61,19 @@ class Session(session.Session):
             other processes in that domain. By default a session is private: no other session or
             terminal can reach it.
 
+        start_time: What the nodes' clocks show when the session begins, in seconds since 1970. On a
+            robot no clock begins at zero. What a session prints counts from its own start.
+
     Raises:
-        SessionError: If the seed or the domain id is not an integer in its range.
+        SessionError: If an argument is not an integer in its range.
     """
 
-    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
-        super().__init__(seed=seed, domain_id=domain_id)
+    _console_class = PageConsole
+
+    def __init__(
+        self, *, seed: int = 0, domain_id: int | None = None, start_time: int = START
+    ) -> None:
+        super().__init__(seed=seed, domain_id=domain_id, start_time=start_time)
         # A cell that is run again makes its node again, in the place of the old one.
         self._core.replaces_nodes = True
 

@@ -11,6 +11,7 @@ property `time` gives the same in seconds. Names of nodes and topics are fully q
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -160,6 +161,25 @@ class FailedCall:
     method: str
     given: tuple[Argument, ...] = ()
     named: dict[str, Argument] = field(default_factory=dict)
+
+
+def is_argument(code: str, name: str) -> bool:
+    """Return whether a line calls a method in order to hand over what it returns.
+
+    Args:
+        code: A line of source, perhaps one of several of a call.
+        name: The method.
+    """
+    call = rf"\.{re.escape(name)}\([^()]*\)"
+    at_once = r"(?:(?!\blambda\b).)*"  # what stands in a lambda is called later
+    made = r"(create_\w+|add_\w+_callback)\("
+    handed = rf"{made}{at_once}{call}|^\w+{call},$|^callback=\w+{call}"
+    return re.search(handed, code) is not None
+
+
+def called_callback(name: str) -> FailedCall:
+    """Return the call that is recorded where a callback was called while one was prepared."""
+    return FailedCall("create", (Argument("called", name),))
 
 
 @dataclass(frozen=True, slots=True)

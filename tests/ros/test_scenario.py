@@ -12,7 +12,8 @@ from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
 
 import failing_answers  # answers that go wrong in every way
-from rosbeat.ros.scenario import Add, Pause, Publish, Remove, Resume, SetParameter, feeder, observe
+from rosbeat.ros.scenario import Add, Pause, Publish, Remove, Resume, SetParameter, observe
+from rosbeat.ros.test_nodes import feeder
 
 pytestmark = pytest.mark.ros
 

@@ -6,7 +6,7 @@ import pytest
 from rclpy.node import Node
 
 from rosbeat import Session
-from rosbeat.errors import BagError
+from rosbeat.errors import SessionError
 from rosbeat.records import QoS
 from rosbeat.ros.test_nodes import (
     GREENHOUSE,
@@ -106,6 +106,6 @@ def test_an_unknown_quality_becomes_the_default_of_ros(ros, recorded, offered):
 
 @pytest.mark.parametrize("name", ["a_msgs/msg/A", "std_msgs/msg/Nothing", "nonsense"])
 def test_an_unknown_type_gets_three_parts(says, name):
-    with pytest.raises(BagError) as caught:
+    with pytest.raises(SessionError) as caught:
         player("player", [PlayedTopic("/count", name, QoS())], [])
     says(caught.value, "cannot be published here")

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import dataclasses
 import subprocess
 import sys
 
@@ -18,6 +19,39 @@ def course(tmp_path, monkeypatch):
 
 def command(work):
     return cli.Command("work", "does it", lambda parser: None, work)
+
+
+@pytest.mark.parametrize(
+    ("typed", "module", "expected"),
+    [
+        (["progress"], "msgspec", 'pip install "rosbeat[course]"'),
+        (["grade", "x", "--out", "y"], "jinja2.utils", 'pip install "rosbeat[class]"'),
+        (["explain", "count"], "rclpy", 'pip install "rosbeat[course,ros]"'),
+        (["explain", "count"], "std_msgs.msg", "Source your ROS 2"),
+    ],
+)
+def test_a_package_that_is_missing_is_told_with_its_extra(
+    monkeypatch, capsys, typed, module, expected
+):
+    def work(options):
+        raise ModuleNotFoundError(f"No module named {module!r}", name=module)
+
+    commands = [dataclasses.replace(known, run=work) for known in cli.COMMANDS]
+    monkeypatch.setattr(cli, "COMMANDS", tuple(commands))
+    assert cli.main(typed) == cli.FAILED
+    said = capsys.readouterr().err
+    assert module.partition(".")[0] in said
+    assert expected in said
+    assert all(part in said for part in ("What it means:", "What to try:"))
+
+
+def test_a_module_of_ours_that_is_missing_is_our_mistake(monkeypatch, capsys):
+    def work(options):
+        raise ModuleNotFoundError("No module named 'rosbeat.cellar'", name="rosbeat.cellar")
+
+    monkeypatch.setattr(cli, "COMMANDS", (command(work),))
+    assert cli.main(["work"]) == cli.FAILED
+    assert "a mistake in rosbeat" in capsys.readouterr().err
 
 
 def test_help_names_every_command(capsys):

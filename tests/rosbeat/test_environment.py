@@ -82,6 +82,31 @@ def test_a_ros_of_ones_own_keeps_its_middleware_and_distribution(robot):
     assert environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
 
 
+def test_tests_get_what_sessions_need_and_keep_their_domain():
+    """pytest loads the plugin wherever rosbeat is installed, also for tests without a session."""
+    environ = {"ROS_PYTHON_CHECK_FIELDS": "0"}
+    set_now = environment.apply_for_tests(environ)
+    assert set(set_now) == {"AMENT_PREFIX_PATH", PROFILE, FROM_PROFILE}
+    assert environ == {**set_now, "ROS_PYTHON_CHECK_FIELDS": "0"}
+
+
+def test_a_plugin_of_pytest_changes_no_domain(tmp_path):
+    (tmp_path / "test_it.py").write_text(
+        "import os\n\ndef test_it():\n"
+        "    assert 'ROS_DOMAIN_ID' not in os.environ\n"
+        "    assert os.environ['ROS_PYTHON_CHECK_FIELDS'] == '1'\n",
+        "utf-8",
+    )
+    # Without the hook of the course's `.venv`, which sets the rest.
+    code = (
+        "import os, sys; [os.environ.pop(name) for name in list(os.environ) if 'ROS' in name]; "
+        "import pytest; sys.exit(pytest.main(['-q', '-p', 'no:cacheprovider']))"
+    )
+    run = [sys.executable, "-c", code]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stdout
+
+
 @pytest.mark.parametrize(
     ("environ", "wanted"),
     [
@@ -118,8 +143,7 @@ def test_without_a_checkout_around_it_only_what_a_wheel_brings_is_named(tmp_path
         "COLCON_DEFAULTS_FILE",
         "ROS2_WORKSPACE",
     }
-    profile = tmp_path / "site-packages" / "ros2_command" / "data" / "fastdds.xml"
-    profile.parent.mkdir(parents=True)
+    profile = tmp_path / "site-packages" / "rosbeat" / "fastdds.xml"
     profile.touch()
     assert module.discovery_profile() == module.defaults(PREFIX)[PROFILE] == str(profile)
     assert module.defaults(PREFIX)[FROM_PROFILE] == "1"

@@ -31,7 +31,7 @@ def wheel(tmp_path_factory):
 
 
 class Installed:
-    """An environment with the wheel, and with as much of ROS as `rosbeat new` looks at."""
+    """An environment with the wheel, and as much of ROS and the extra as `rosbeat new` looks at."""
 
     def __init__(self, folder, wheel):
         self.folder, self.prefix = folder, folder / "a venv"
@@ -43,6 +43,9 @@ class Installed:
         self.ros = self.prefix / "share" / "ament_index" / "resource_index" / "packages" / "rclpy"
         self.ros.parent.mkdir(parents=True)
         self.ros.touch()
+        for name in ("jupyterlab", "matplotlib", "msgspec"):
+            (self.packages / name).mkdir()
+            (self.packages / name / "__init__.py").touch()
 
     def run(self, *arguments, cwd=None):
         kept = ("HOME", "LANG", "PATH")
@@ -216,7 +219,17 @@ def test_without_ros_it_says_what_to_install(fresh):
     fresh.ros.unlink()
     done = fresh.new("mine")
     assert done.returncode == 1
-    assert 'pip install "rosbeat[ros]"' in done.stderr
+    assert 'pip install "rosbeat[course,ros]"' in done.stderr
+    assert not (fresh.folder / "mine").exists()
+
+
+def test_without_the_extra_it_says_what_to_install(fresh):
+    (fresh.packages / "matplotlib" / "__init__.py").unlink()
+    (fresh.packages / "matplotlib").rmdir()
+    done = fresh.new("mine")
+    assert done.returncode == 1
+    assert "has no matplotlib" in done.stderr
+    assert 'pip install "rosbeat[course]"' in done.stderr
     assert not (fresh.folder / "mine").exists()
 
 

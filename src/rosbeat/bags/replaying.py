@@ -9,7 +9,7 @@ from rosbeat.bags.arguments import Run, observation_of, topic_types
 from rosbeat.bags.bag import UNKNOWN
 from rosbeat.bags.faults import Change, inject
 from rosbeat.bags.serialization import installed_types, serialized
-from rosbeat.errors import called_as
+from rosbeat.errors import BagError, SessionError, called_as
 from rosbeat.records import Observation, QoS, Sample
 from rosbeat.ros.test_nodes import NodeFactory, PlayedStep, PlayedTopic, player
 
@@ -57,7 +57,11 @@ def replay(
     samples = sorted(inject(chosen, *faults), key=lambda one: one.time_ns)
     data = serialized(installed_types(types.values()), samples)
     played = [PlayedTopic(one, types[one], _offer(seen, one)) for one in types]
-    return player(name, played, _steps(samples, data, list(types)))
+    try:
+        return player(name, played, _steps(samples, data, list(types)))
+    except SessionError as error:
+        leave_out = f"{error.to_try[:-1]}, or leave the topic out with `topics=[...]`."
+        raise BagError(error.what, error.means, leave_out) from error
 
 
 def _offer(seen: Observation, topic: str) -> QoS:

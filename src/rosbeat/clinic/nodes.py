@@ -18,7 +18,7 @@ from rosbeat.clinic.systems import (
     NodeSpec,
     Specification,
 )
-from rosbeat.ros.test_nodes import profile
+from rosbeat.ros.tester import profile
 
 #: From degrees Celsius.
 _UNITS: dict[str, Callable[[float], float]] = {

@@ -12,7 +12,7 @@ import re
 from typing import NamedTuple, TypeGuard
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.records import Argument, FailedCall, Fault
+from rosbeat.records import Argument, FailedCall, Fault, is_argument
 
 #: The types of `std_msgs`, which learners of this course use.
 MESSAGES = frozenset(
@@ -276,25 +276,6 @@ def called_at_once(fault: Fault) -> Diagnosis | None:
 def _called(name: str) -> Diagnosis:
     means = f"{name} is called while the node is being created, instead of being passed."
     return Diagnosis("callback-called", means, _HAND_OVER)
-
-
-def is_argument(code: str, name: str) -> bool:
-    """Return whether a line calls a method in order to hand over what it returns.
-
-    Args:
-        code: A line of source, perhaps one of several of a call.
-        name: The method.
-    """
-    call = rf"\.{re.escape(name)}\([^()]*\)"
-    at_once = r"(?:(?!\blambda\b).)*"  # what stands in a lambda is called later
-    made = r"(create_\w+|add_\w+_callback)\("
-    handed = rf"{made}{at_once}{call}|^\w+{call},$|^callback=\w+{call}"
-    return re.search(handed, code) is not None
-
-
-def called_callback(name: str) -> FailedCall:
-    """Return the call that is recorded where a callback was called while one was prepared."""
-    return FailedCall("create", (Argument("called", name),))
 
 
 # Timers.

@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rosbeat.diagnosis.calls import called_callback, is_argument, matched, written_call
+from rosbeat.diagnosis.calls import matched, written_call
 from rosbeat.diagnosis.exceptions import diagnosed, meaning_of
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.records import Fault
+from rosbeat.records import Fault, called_callback, is_argument
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _START = "Traceback (most recent call last)"

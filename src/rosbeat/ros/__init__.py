@@ -1,4 +1,4 @@
-"""Run real ROS nodes in a page, in virtual time or live, and record their behaviour.
+"""Run real ROS nodes in virtual time or live, and record their behavior.
 
 Only this folder imports rclpy. `docs/simulation.md` explains how virtual time works.
 
@@ -16,4 +16,5 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
 - Running an answer: `isolation` (with a deadline and seeded random numbers), `scenario` (`observe`
   and the steps of a run), `test_nodes` (nodes of the course's own), `programs` (operating-system
   processes).
+- Tests: `tester` (publishes, calls services and sends goals, for `rosbeat.testing`).
 """

@@ -184,7 +184,7 @@ class ActionEnd:
             raise SessionError(
                 f"No action server has responded to {method} for the action {self.name}.",
                 "Either no node of this session offers that action, or its execute callback does "
-                "not return. Outside a page, the call would wait forever.",
+                "not return. On a robot, the call would wait forever.",
                 "Add the node that offers the action first, and compare the two action names.",
             )
         return future.result()

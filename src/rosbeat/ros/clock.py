@@ -34,6 +34,8 @@ from rosbeat.ros.waits import board_here
 #: Seconds since 1970 at which clocks begin: 2025-01-01 in UTC. On a robot no clock begins at zero,
 #: and public code takes zero for "never".
 START = 1_735_689_600
+#: The latest beginning that can be chosen: rcl counts nanoseconds in 63 bits.
+LATEST_START = 2**63 // 1_000_000_000 // 2
 #: The same of clocks that count from the start of the machine.
 STEADY_START = 3_600
 _STEADY_NS = STEADY_START * 1_000_000_000

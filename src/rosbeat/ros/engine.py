@@ -438,6 +438,11 @@ class VirtualTime(Switchboard):
 
     # What rclpy's own executors tell.
 
+    @property
+    def threads(self) -> int:
+        """Return how many threads a `MultiThreadedExecutor()` has."""
+        return self._core.threads
+
     def observe(
         self, entity: Any, node: Node, take: Callable[..., Any]  # noqa: ANN401 - any of rclpy's
     ) -> tuple[Call, Callable[..., Any]]:

@@ -1,26 +1,28 @@
-"""Define the errors of session calls, and print log lines and faults in the cell of the run.
+"""Define the errors of session calls, and print log lines and exceptions of nodes as they come.
 
-Log lines have the format of `ros2 run`, with virtual time instead of wall time, so that a page
-prints the same text on every run.
+Log lines have the format of `ros2 run`, with virtual time instead of wall time, so that every run
+prints the same text.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from difflib import get_close_matches
 from math import inf, isfinite
 from numbers import Real
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+import rclpy
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
-from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.errors import (
     ClosedSessionError,
     DeadlockError,
     DurationError,
     NodeClassError,
+    NodeConstructionError,
     RosbeatError,
     SessionError,
     UnknownTopicError,
@@ -28,6 +30,7 @@ from rosbeat.errors import (
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 
 if TYPE_CHECKING:
+    from rosbeat.ros.simulated_program import SimulatedProgram
     from rosbeat.ros.waits import Wait
 
 
@@ -37,6 +40,8 @@ INSTEAD_OF_WAITING = (
     "and await the future, with the client in its own callback group. To do something "
     "repeatedly, create a timer."
 )
+#: The only middleware that delivers a message within `publish`.
+MIDDLEWARE = "rmw_fastrtps_cpp"
 #: About 31 years; a longer span is a slip.
 _LONGEST = 1e9
 
@@ -57,6 +62,23 @@ def check_whole(name: str, value: object, low: int, high: int, example: str = ""
         f"It must be a whole number from {low} to {high if high < 2**63 else 'about 9e18'}.",
         f"For example, write {example or f'Session({name}=7)'}.",
     )
+
+
+def check_middleware() -> None:
+    """Check that the middleware is Fast DDS.
+
+    Raises:
+        SessionError: If it is another one.
+    """
+    name = rclpy.get_rmw_implementation_identifier()
+    if name != MIDDLEWARE:
+        raise SessionError(
+            f"A session needs the middleware {MIDDLEWARE}, and this process uses {name}.",
+            "Virtual time counts on a message being there when `publish` returns, as it is with "
+            "Fast DDS.",
+            f"Set RMW_IMPLEMENTATION={MIDDLEWARE} before Python starts. It is in the package "
+            f"ros-jazzy-{MIDDLEWARE.replace('_', '-')}.",
+        )
 
 
 def check_name(call: str, value: object) -> str:
@@ -160,7 +182,7 @@ def deadlock(waits: Sequence[Wait]) -> DeadlockError:
 
 
 def never_made(seconds: float) -> SessionError:
-    """Return the error for a constructor that waits on and on while a cell calls it."""
+    """Return the error for a constructor that waits on and on while `ros.add` calls it."""
     return SessionError(
         f"The constructor is still waiting after {seconds:g} s of virtual time.",
         "`ros.add` returns the node, so it cannot return until the constructor does.",
@@ -264,38 +286,31 @@ def log_text(record: LogRecord) -> str:
     return f"[{record.level}] [{seconds_text(record.time_ns)}] [{record.name}]: {record.text}"
 
 
-def fault_text(fault: Fault, event: str = "stopped", outcome: str = _NODE_ENDS) -> str:
-    """Format an exception in a callback, in three parts."""
-    # An error of our own says what it means itself.
-    known = None if _MEANS in fault.text else meaning_of(fault)
-    text = first_sentence(fault.text) if known else fault.text
-    time = seconds_text(fault.time_ns)
-    return _three_parts(
-        f"{fault.node} {event} at {time} s, in {fault.callback}: {fault.kind}: {text}",
-        fault,
-        f"{known.evidence} A{outcome}" if known else f"a{outcome}",
-        f"{known.hint if known else 'correct that line,'} {'Then' if known else 'then'} run "
-        "the cell that adds the node again.",
-    )
+class Advice(NamedTuple):
+    """Say what an exception means, as far as it is known.
 
+    Attributes:
+        text: The exception's message, shortened.
+        means: What the exception means here.
+        to_try: What to do about it.
+    """
 
-def work_text(fault: Fault) -> str:
-    """Format an exception in the work on a goal, in three parts."""
-    return fault_text(fault, "aborted a goal", _GOAL_ENDS)
-
-
-def deadlock_text(fault: Fault, error: RosbeatError) -> str:
-    """Format that a callback waits for ever, in three parts."""
-    return _three_parts(error.what, fault, error.means, error.to_try)
-
-
-def _three_parts(what: str, fault: Fault, means: str, to_try: str) -> str:
-    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
-    return f"{what}{where}{_MEANS}{means}\n  What to try:   {to_try}"
+    text: str
+    means: str
+    to_try: str
 
 
 class Console:
-    """Print log lines as they come, up to a limit for each call of `run`."""
+    """Print what happens in a session: log lines as they come, and exceptions in three parts.
+
+    A subclass speaks to other people (`rosbeat.page_session`) or in another way
+    (`rosbeat.testing`).
+    """
+
+    #: What to do after a correction, at the end of a sentence: when a node has ended, and when it
+    #: could not be created.
+    add_again = "add the node again, with `ros.add(...)`."
+    create_again = "run the program again."
 
     def __init__(self) -> None:
         self.begin()
@@ -320,7 +335,70 @@ class Console:
             print(f"... and {self._held_back} more lines; logs() has them all.")
             self._held_back = 0
 
+    def explain(self, fault: Fault) -> Advice | None:
+        """Return what an exception means; None if nothing is known beyond its own words."""
+        return None
+
+    def raised(self, fault: Fault, error: BaseException) -> None:
+        """Take note of an exception that left a callback, or the work on a goal, as it happens."""
+
+    def program_ended(self, program: SimulatedProgram) -> None:
+        """Take note that a program has ended, as it happens."""
+
+    def fault(self, fault: Fault) -> None:
+        """Print an exception that ended a node."""
+        print(self._fault_text(fault, "stopped", _NODE_ENDS), file=sys.stderr)
+
+    def work_fault(self, fault: Fault) -> None:
+        """Print an exception in the work on a goal."""
+        print(self._fault_text(fault, "aborted a goal", _GOAL_ENDS), file=sys.stderr)
+
+    def deadlock(self, fault: Fault, error: RosbeatError) -> None:
+        """Print that a callback waits forever."""
+        text = _three_parts(error.what, fault, error.means, error.to_try)
+        print(text, file=sys.stderr)
+
+    def _fault_text(self, fault: Fault, event: str, outcome: str) -> str:
+        # An error of our own says what it means itself.
+        known = None if _MEANS in fault.text else self.explain(fault)
+        time = seconds_text(fault.time_ns)
+        text = known.text if known else fault.text
+        return _three_parts(
+            f"{fault.node} {event} at {time} s, in {fault.callback}: {fault.kind}: {text}",
+            fault,
+            f"{known.means} A{outcome}" if known else f"a{outcome}",
+            f"{known.to_try if known else 'correct that line,'} {'Then' if known else 'then'} "
+            f"{self.add_again}",
+        )
+
+    def construction_error(
+        self, name: str, fault: Fault, error: BaseException
+    ) -> NodeConstructionError:
+        """Return the error for a constructor that raised, in three parts."""
+        known = self.explain(fault)
+        if isinstance(error, RosbeatError):
+            text, means, to_try = error.what, error.means, error.to_try
+        elif known is not None:
+            text, means = known.text, known.means
+            to_try = f"{known.to_try} Then {self.create_again}"
+        else:
+            text = fault.text
+            means = (
+                "The constructor, `__init__`, raised before the node was ready, so there is no "
+                "node."
+            )
+            again = f"line {fault.line}, then {self.create_again}" if fault.line else "`__init__`."
+            to_try = f"Mend {again}"
+        where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+        what = f"{name} could not be created: {fault.kind}: {text}{where}"
+        return NodeConstructionError(what, means, to_try)
+
+
+def _three_parts(what: str, fault: Fault, means: str, to_try: str) -> str:
+    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+    return f"{what}{where}{_MEANS}{means}\n  What to try:   {to_try}"
+
 
 def note(text: str) -> None:
-    """Tell the learner something that is not an error."""
+    """Say something that is not an error."""
     print(f"rosbeat: {text}")

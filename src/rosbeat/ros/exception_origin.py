@@ -18,8 +18,7 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from rosbeat.diagnosis.calls import called_callback, is_argument
-from rosbeat.records import Argument, FailedCall, Fault
+from rosbeat.records import Argument, FailedCall, Fault, called_callback, is_argument
 
 # What to propose for an unknown name. A traceback in a terminal ends with `Did you mean:
 # 'publisher_'?`, which Python adds while it prints, and differently in each version.
@@ -72,8 +71,8 @@ def _attributes(owner: object) -> list[str]:
     return found
 
 
-# Which call of rclpy failed, and with arguments of which types, for `diagnosis.calls`: rclpy's own
-# text is the same for a missing callback and a missing queue depth. The learner's code is not
+# Which call of rclpy failed, and with arguments of which types, for whoever explains it: rclpy's
+# own text is the same for a missing callback and a missing queue depth. The learner's code is not
 # called to describe an argument.
 
 _NOTE = "_rosbeat_asked"

@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any, TypedDict
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
-from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
-from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
+from rosbeat.errors import NodeClassError, SessionError
 from rosbeat.ros.exception_origin import fault_of
 from rosbeat.ros.recording import repair_message_classes
 
 if TYPE_CHECKING:
+    from rosbeat.ros.errors import Console
     from rosbeat.ros.processes import Process
     from rosbeat.ros.session_core import SessionCore
 
@@ -138,7 +138,7 @@ def build_in(
     before = core.states()
     try:
         with core.starting(start, process):
-            return tuple(_build_node(target) for target in targets)
+            return tuple(_build_node(target, core.console) for target in targets)
     except BaseException:  # Interrupt, too
         for state in core.states():
             if state not in before:
@@ -146,7 +146,7 @@ def build_in(
         raise
 
 
-def _build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
+def _build_node(target: Any, console: Console) -> Node:  # noqa: ANN401 - unchecked input
     if isinstance(target, Node):
         return target
     if isclass(target) and not issubclass(target, Node):
@@ -164,7 +164,8 @@ def _build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
             with suppress(InvalidHandle):  # destroyed; that is told elsewhere
                 Node.get_name(made)  # raises if super().__init__ was never called
     except (Exception, SystemExit) as error:
-        raise _construction_error(name, error) from error
+        repair_message_classes()
+        raise console.construction_error(name, fault_of(error, 0, "", "__init__"), error) from error
     if not isinstance(made, Node):
         raise _not_a_node(f"What {name}() returned, {made!r},", made)
     return made
@@ -176,24 +177,3 @@ def _not_a_node(subject: str, found: object) -> NodeClassError:
         "A session runs nodes: it needs a node class, a function that returns a node, or a node.",
         "Pass the class itself, without quotes or parentheses: `ros.add(TemperatureSensor)`.",
     )
-
-
-def _construction_error(name: str, error: BaseException) -> NodeConstructionError:
-    repair_message_classes()
-    fault = fault_of(error, 0, "", "__init__")
-    known = meaning_of(fault)
-    if isinstance(error, RosbeatError):
-        text, means, to_try = error.what, error.means, error.to_try
-    elif known is not None:
-        text, means = first_sentence(fault.text), known.evidence
-        to_try = f"{known.hint} Then run the cell again."
-    else:
-        text = fault.text
-        means = (
-            "The constructor, `__init__`, raised before the node was ready, so there is no node."
-        )
-        line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
-        to_try = f"Mend {line}"
-    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
-    what = f"{name} could not be created: {fault.kind}: {text}{where}"
-    return NodeConstructionError(what, means, to_try)

@@ -493,10 +493,10 @@ def _make_alone(make: Callable[[], None]) -> None:
             raise
         raise NoSessionError(
             "A node was created, but no session is open.",
-            "A node needs ROS to be running. On a page, a session starts ROS, and the last "
-            "session is closed.",
-            "Run the cell with `Session()` again, or call `rclpy.init()` first, as a program "
-            "does. For a check, pass the class itself, without parentheses.",
+            "A node needs ROS to be running. Opening a session starts ROS, and closing the session "
+            "ends it.",
+            "Open a session with `Session()`, or call `rclpy.init()` first, as a program "
+            "does. Where a class is asked for, pass the class itself, without parentheses.",
         ) from None
 
 

@@ -42,15 +42,11 @@ from rosbeat.records import (
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.exception_origin import fault_of, line_of
 from rosbeat.ros.isolation import Deadline, DeadlinePassed, run_in_generator, unharmed
-from rosbeat.ros.launch import Launch as Launch
-from rosbeat.ros.launch import Maker as Maker
-from rosbeat.ros.launch import checked
+from rosbeat.ros.launch import Launch, Maker, checked
 from rosbeat.ros.processes import NodeState
-from rosbeat.ros.recording import message_class as message_class
-from rosbeat.ros.recording import plain
+from rosbeat.ros.recording import message_class, plain
 from rosbeat.ros.session import Session
-from rosbeat.ros.test_nodes import BARE, message, profile
-from rosbeat.ros.test_nodes import feeder as feeder
+from rosbeat.ros.tester import BARE, message, profile
 
 # What is done to the nodes while they run, as plain data.
 

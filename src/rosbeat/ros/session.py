@@ -1,21 +1,28 @@
-"""Run real ROS nodes in a page: the session."""
+"""Run real ROS nodes in virtual time or live: the session."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast, overload
 from weakref import finalize
 
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 
 from rosbeat.domains import LAST_DOMAIN
 from rosbeat.errors import SessionError, called_as
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
+from rosbeat.ros.clock import LATEST_START, START
 from rosbeat.ros.context import install_learner_calls, show_briefly
 from rosbeat.ros.errors import (
+    Console,
+    check_middleware,
     check_name,
     check_whole,
     duration_ns,
@@ -38,23 +45,34 @@ if TYPE_CHECKING:
 
 SomeNode = TypeVar("SomeNode", bound=Node)
 
+
 install_learner_calls()
 spinning.install()
 
 
 class Session:
-    """Run ROS nodes inside a page, in virtual time or live, and record what they do.
+    """Run ROS nodes in virtual time or live, and record what they do.
 
-    The pages' own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
+    `rosbeat.testing` has the session of a test, and `rosbeat.page_session` that of a page, which
+    also explains the arguments.
     """
 
+    #: What prints and explains; a subclass has one of its own.
+    _console_class: ClassVar[type[Console]] = Console
+
     @called_as("Session(seed=7)")
-    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
+    def __init__(
+        self, *, seed: int = 0, domain_id: int | None = None, start_time: int = START
+    ) -> None:
         check_whole("seed", seed, 0, 2**63)
+        check_whole("start_time", start_time, 0, LATEST_START)
+        check_middleware()
         if domain_id is not None:
             check_whole("domain_id", domain_id, 0, LAST_DOMAIN)
         self._seed = seed
-        self._core = SessionCore(seed, domain_id)
+        self._core = SessionCore(
+            seed, domain_id, console=self._console_class(), start_time=start_time
+        )
         # Also runs at interpreter exit, before the middleware is torn down.
         self._finalizer = finalize(self, self._core.close)
 
@@ -87,6 +105,11 @@ class Session:
     def is_live(self) -> bool:
         """Return whether the nodes run against the wall clock now."""
         return self._core.live is not None
+
+    @property
+    def has_ended(self) -> bool:
+        """Return whether the session is closed."""
+        return self._core.closed
 
     @property
     def nodes(self) -> tuple[Node, ...]:
@@ -138,6 +161,7 @@ class Session:
             SessionError: If it cannot be started so, or exists already and is to be renamed.
             ClosedSessionError: If the session has ended.
         """
+        __tracebackhide__ = True  # pytest shows the frames of the node, and none of ours
         start = checked(name, namespace, remappings, parameters)
         check_whole("threads", threads, 1, 1000, "ros.add(TemperatureSensor, threads=4)")
         if not nodes:
@@ -265,7 +289,7 @@ class Session:
                 raise session_is_live()
             self._core.console.begin(quiet)
             try:
-                self._core.virtual.run_until(self._core.now() + span)
+                self._run_nodes(self._core.now() + span)
             except KeyboardInterrupt as interrupt:
                 ended = self._core.break_endless_off(interrupt)
                 usual = f"stopped at {self.time:g} s; the session is still open."
@@ -442,6 +466,10 @@ class Session:
         )
 
     # How it works.
+
+    def _run_nodes(self, end_ns: int, done: Callable[[], object] | None = None) -> None:
+        """Run until a time, in nanoseconds, or until something is true."""
+        self._core.virtual.run_until(end_ns, done)
 
     @contextmanager
     def _running(self, what: str, code: Iterable[object] = ()) -> Iterator[None]:

@@ -38,13 +38,10 @@ from rosbeat.ros.errors import (
     Console,
     check_name,
     deadlock,
-    deadlock_text,
-    fault_text,
     foreign_node,
     no_such_node,
     node_has_ended,
     note,
-    work_text,
 )
 from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
@@ -93,6 +90,7 @@ class SessionCore:
         domain_id: The domain that the session has joined; None in a private session.
         graph_observer: Observes the other processes; None in a private session, which has none.
         external_messages: Records messages from other processes; None in a private session.
+        threads: How many a `MultiThreadedExecutor()` has, the same on each machine.
         start: How the node that is being created is started.
         replaces_nodes: Whether a new node takes the place of one of the same name, as on a page,
             where a cell is run again. On a robot both run.
@@ -101,7 +99,11 @@ class SessionCore:
     """
 
     def __init__(
-        self, seed: int = 0, domain_id: int | None = None, start_time: float = START
+        self,
+        seed: int = 0,
+        domain_id: int | None = None,
+        console: Console | None = None,
+        start_time: int = START,
     ) -> None:
         self._states: dict[Node, NodeState] = {}
         self._entries: dict[Any, Entry] = {}
@@ -115,11 +117,12 @@ class SessionCore:
         self.next_number = count(1).__next__
         repair_message_classes()
         self.domain_id = domain_id
+        self.threads = 4
         self.start = Launch()
         self.recorder = Recorder()
-        self.console = Console()
+        self.console = console or Console()
         self.context = SessionContext(self, domain_id)
-        self.virtual = VirtualTime(self.recorder, self, round(start_time * NANOSECONDS))
+        self.virtual = VirtualTime(self.recorder, self, start_time * NANOSECONDS)
         self.live: LiveExecutor | None = None
         self.limits = Limits(self)
         self.closed = False
@@ -475,7 +478,9 @@ class SessionCore:
     def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
         """Record an exception that left a callback; end its process, and let the others go on."""
         node = state.name if state else "A task"
-        self.recorder.faults.append(fault_of(error, self.now(), node, name))
+        fault = fault_of(error, self.now(), node, name)
+        self.recorder.faults.append(fault)
+        self.console.raised(fault, error)
         repair_message_classes()
         if state is not None:
             kind = INTERRUPTED if isinstance(error, BrokenOff) else RAISED
@@ -498,7 +503,7 @@ class SessionCore:
             interrupt: The interrupt, as the session's `run` catches it.
 
         Returns:
-            What to tell the learner, in three parts; an empty text if no callback had.
+            What to say, in three parts; an empty text if no callback had.
         """
         label, state = self.virtual.calling, None
         seconds = time.monotonic() - self.recorder.began
@@ -513,8 +518,8 @@ class SessionCore:
             f"    line {line}: {code}\n"
             "  What it means: While a callback runs, nothing else can. The node has ended; the "
             "other nodes go on.\n"
-            "  What to try:   Mend the callback so that it returns, then run the cell that adds "
-            "the node again."
+            "  What to try:   Mend the callback so that it returns, then "
+            f"{self.console.add_again}"
         )
 
     def deadlocked(self, waits: Sequence[Wait]) -> None:
@@ -526,12 +531,17 @@ class SessionCore:
             frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
             now, kind = self.now(), type(error).__name__
             fault = Fault(now, call.node, call.name, kind, str(error), *line_of(frame))
-            self.add_fault(fault, deadlock_text(fault, error))
+            self.add_fault(fault)
+            if waits[0].needs is not None:  # else what a test does next may end the wait
+                self.console.raised(fault, error)
+            self.console.deadlock(fault, error)
 
     def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
         """Record an exception that left the work on a goal; rclpy aborts the goal and logs it."""
         fault = fault_of(error, self.now(), state.name, name)
-        self.add_fault(fault, work_text(fault))
+        self.add_fault(fault)
+        self.console.raised(fault, error)
+        self.console.work_fault(fault)
 
     def sent(self, kind: str, name: str, origin: NodeState | None = None) -> None:
         """Note that a node sent something to the `kind` entities called `name`."""
@@ -582,14 +592,12 @@ class SessionCore:
         faults = self.recorder.faults
         while self._shown_faults < len(faults):
             self._shown_faults += 1
-            print(fault_text(faults[self._shown_faults - 1]), file=sys.stderr)
+            self.console.fault(faults[self._shown_faults - 1])
 
-    def add_fault(self, fault: Fault, text: str = "") -> None:
-        """Record a fault and print `text` now, instead of what is usually printed later."""
+    def add_fault(self, fault: Fault) -> None:
+        """Record a fault that the caller prints in its own way."""
         self.recorder.faults.append(fault)
         self._shown_faults += 1
-        if text:
-            print(text, file=sys.stderr)
 
     # Running.
 
@@ -866,7 +874,7 @@ class SessionCore:
             raise SessionError(
                 f"{entry.state.name} calls {entry.name} before the node itself runs.",
                 "A node that is still being created, was not added, or is paused cannot receive "
-                "a response. Outside a page, the call would wait forever.",
+                "a response. On a robot, the call would wait forever.",
                 "Add the node first, with `ros.add(...)`, and call the service after that, or in "
                 "a timer's callback with `call_async`.",
             )
@@ -882,7 +890,7 @@ class SessionCore:
                 raise SessionError(
                     f"No node has responded to the call of {client.service_name}.",
                     "Either no node of this session offers that service, or its callback does "
-                    "not return. Outside a page, the call would wait forever.",
+                    "not return. On a robot, the call would wait forever.",
                     "Add the node that offers the service first, and compare the two service "
                     "names.",
                 )

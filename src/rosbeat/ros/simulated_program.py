@@ -30,6 +30,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 
 from rosbeat.errors import SessionError
+from rosbeat.records import Fault
 from rosbeat.ros.context import ProgramContext
 from rosbeat.ros.errors import note
 from rosbeat.ros.exception_origin import error_text, fault_of
@@ -59,6 +60,7 @@ class SimulatedProgram:
         stderr: The traceback with which it ended; empty if there was none.
         argv: Its command line, as in `sys.argv`.
         interrupt: The exception that a simulated Ctrl+C raises, to distinguish it from a real one.
+        failure: The exception that left `main`, and its record; None if there was none.
 
     Raises:
         SessionError: If `target` is neither a file nor a function.
@@ -73,6 +75,7 @@ class SimulatedProgram:
         self._process = Process(program=self)
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
+        self.failure: tuple[Fault, BaseException] | None = None
         self._has_handlers = False  # those of rclpy
         self._depth = 0  # how many times it was entered and not left
         self.argv = [self.name, *arguments]
@@ -288,7 +291,8 @@ class SimulatedProgram:
         elif error is not None:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
-            self._core.add_fault(fault_of(error, self._core.now(), self.name, "main"))
+            self.failure = fault_of(error, self._core.now(), self.name, "main"), error
+            self._core.add_fault(self.failure[0])
         if self.stderr:
             print(self.stderr, end="", file=sys.stderr)
         self._end(code)
@@ -305,6 +309,7 @@ class SimulatedProgram:
             self._core.destroy(state)
         if self._context is not None:
             Context.try_shutdown(self._context)
+        self._core.console.program_ended(self)
 
 
 def _keep_handler(number: int, handler: object) -> object:
@@ -334,7 +339,7 @@ def _checked_file(name: str) -> Path:
     raise SessionError(
         f"There is no Python file {reprlib.repr(name)}.",
         "`ros.spawn` runs a program: a Python file with a function `main`.",
-        "Check the name; it ends in `.py`, and a relative one begins at the notebook's folder.",
+        "Check the name; it ends in `.py`, and a relative one begins at the current folder.",
     )
 
 

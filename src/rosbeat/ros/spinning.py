@@ -142,7 +142,7 @@ def _spin_in_session(core: _Core, node: Node) -> None:
     was_live = core.live is not None
     if not was_live:
         core.go_live()
-    note(f"{state.name} spins in real time until you interrupt the cell.")
+    note(f"{state.name} spins in real time until you interrupt it.")
     pulse = threading.Event()  # nobody sets it: it is a sleep that Interrupt ends at once
     try:
         with Interrupts() as interrupts:  # printing may swallow the exception

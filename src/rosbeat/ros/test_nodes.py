@@ -12,66 +12,17 @@ from random import Random
 from typing import Any, NamedTuple
 
 from rclpy.context import Context
-from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.timer import Timer
 from std_msgs.msg import Bool, Float32, Int32, String
 
-from rosbeat.errors import BagError
+from rosbeat.errors import SessionError
 from rosbeat.records import Observation, QoS
 from rosbeat.ros.isolation import tilt
 from rosbeat.ros.recording import Message, message_class
 from rosbeat.ros.session import Session
-
-#: Options of a test node: the six parameter services take two thirds of the time to make a node.
-BARE = {"start_parameter_services": False}
-
-
-def message(type_name: str, value: Any) -> Any:  # noqa: ANN401 - a message of any type
-    """Return a message whose field `data` is a value, or whose fields are those of a dict."""
-    fields = value if isinstance(value, dict) else {"data": value}
-    return message_class(type_name)(**fields)
-
-
-def profile(qos: QoS | int) -> QoSProfile:
-    """Return the QoS profile of a record, or of a queue depth; ROS's defaults for unknown parts."""
-    if isinstance(qos, int):
-        return QoSProfile(depth=qos)
-    best_effort, stored = qos.reliability == "BEST_EFFORT", qos.durability == "TRANSIENT_LOCAL"
-    limits = {"deadline": qos.deadline_ns, "lifespan": qos.lifespan_ns}
-    return QoSProfile(
-        reliability=ReliabilityPolicy.BEST_EFFORT if best_effort else ReliabilityPolicy.RELIABLE,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if stored else DurabilityPolicy.VOLATILE,
-        history=HistoryPolicy.KEEP_ALL if qos.history == "KEEP_ALL" else HistoryPolicy.KEEP_LAST,
-        depth=qos.depth or 10,
-        **{name: Duration(nanoseconds=limit) for name, limit in limits.items() if limit},
-    )
-
-
-class Tester(Node):
-    """Publish messages for a test, now or later."""
-
-    def __init__(self) -> None:
-        super().__init__("tester", **BARE)
-        self._by_topic: dict[tuple[str, type], Any] = {}
-
-    def publish(self, topic: str, value: Any, qos: QoSProfile, wait: float | None) -> None:  # noqa: ANN401 - a message
-        """Publish a message after so many seconds, or at once if that is None."""
-        key = topic, type(value)
-        if key not in self._by_topic:
-            self._by_topic[key] = self.create_publisher(type(value), topic, qos)
-        if wait is None:
-            self._by_topic[key].publish(value)
-            return
-
-        def once() -> None:
-            timer.cancel()
-            self._by_topic[key].publish(value)
-
-        timer = self.create_timer(wait, once)
-
+from rosbeat.ros.tester import BARE, message, profile
 
 # Nodes of one callback or two.
 
@@ -336,7 +287,7 @@ def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]
     begins, also at the same instant.
 
     Raises:
-        BagError: If no installed package has a topic's type.
+        SessionError: If no installed package has a topic's type.
     """
     classes = [_class_of(topic) for topic in topics]
 
@@ -355,8 +306,8 @@ def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]
                 self._schedule()
 
         def _play(self) -> None:
-            for topic, message in self._left.popleft().messages:
-                self._topic_publishers[topic].publish(message)
+            for topic, data in self._left.popleft().messages:
+                self._topic_publishers[topic].publish(data)
             self._schedule()
 
         def _schedule(self) -> None:
@@ -374,11 +325,10 @@ def _class_of(topic: PlayedTopic) -> type:
     try:
         return message_class(topic.type_name)
     except (ImportError, AttributeError, ValueError) as error:
-        raise BagError(
+        raise SessionError(
             f"Messages of the type {topic.type_name} cannot be published here.",
             f"{topic.topic} has this type, but no package that defines the type is installed.",
-            "Build and source the package that defines the type, or leave the topic out with "
-            "`topics=[...]`.",
+            "Build and source the package that defines the type.",
         ) from error
 
 

@@ -38,8 +38,6 @@ if TYPE_CHECKING:
 _WORK = ("subscription", "timer", "client", "service")
 #: A guard condition may only say that the wait set has to be made anew.
 _KINDS = (*_WORK, "guard_condition")
-#: Threads of a `MultiThreadedExecutor()` in virtual time: the same on each machine.
-DEFAULT_THREADS = 4
 
 
 def _engine_here() -> VirtualTime | None:
@@ -324,8 +322,9 @@ def _watch_nodes(original: Callable[..., Any], spins: bool) -> Callable[..., Any
 def _choose_threads(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(executor: Executor, num_threads: int | None = None, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
-        if num_threads is None and _engine_here() is not None:
-            num_threads = DEFAULT_THREADS
+        engine = _engine_here()
+        if num_threads is None and engine is not None:
+            num_threads = engine.threads
         original(executor, num_threads, **options)
 
     return init

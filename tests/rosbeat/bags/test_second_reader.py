@@ -14,8 +14,7 @@ from std_msgs.msg import Float32, String
 from nodes import Talker
 from rosbeat import Session
 from rosbeat.bags import record
-from rosbeat.ros.recording import plain
-from rosbeat.ros.scenario import message_class
+from rosbeat.ros.recording import message_class, plain
 
 pytestmark = pytest.mark.ros
 

@@ -19,8 +19,7 @@ from rosbeat.bags.serialization import (
     to_bytes,
 )
 from rosbeat.errors import BagError
-from rosbeat.ros.recording import plain
-from rosbeat.ros.scenario import message_class
+from rosbeat.ros.recording import message_class, plain
 
 FLOAT, BYTES = "std_msgs/msg/Float32", "std_msgs/msg/ByteMultiArray"
 

@@ -17,7 +17,8 @@ from rosbeat.records import (
     Sample,
     TimerRecord,
 )
-from rosbeat.ros.scenario import feeder, observe
+from rosbeat.ros.scenario import observe
+from rosbeat.ros.test_nodes import feeder
 
 FLOAT = "std_msgs/msg/Float32"
 WIRE = Wire("/temperature", FLOAT)

@@ -10,7 +10,8 @@ from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import before_judging
 from rosbeat.ros.launch import Launch
-from rosbeat.ros.scenario import feeder, observe
+from rosbeat.ros.scenario import observe
+from rosbeat.ros.test_nodes import feeder
 
 pytestmark = pytest.mark.ros
 
