@@ -357,10 +357,14 @@ class PublisherTap:
         self._listeners = listeners = list[Callable[[], None]]()
         self.lifespan_ns = limit_ns(self._qos.lifespan)
         send, take, message_type = publisher.publish, memory.take, publisher.msg_type
+        managed = hasattr(publisher, "is_activated")
 
         def publish(msg: Any) -> None:  # noqa: ANN401 - a message of any type, or its bytes
             if isinstance(msg, message_type):
                 send(msg)
+                # A publisher of a lifecycle node sends nothing while it is inactive.
+                if managed and not publisher.is_activated:
+                    return
                 copy = take(msg)
             else:
                 with asking("publish", msg):
