@@ -22,6 +22,7 @@ from pathlib import Path
 from queue import Queue
 
 from conformance.machine import Watch
+from distributions import IS_KILTED
 
 FOLDER = Path(__file__).parent
 
@@ -136,6 +137,8 @@ RUNS = {
         Run("exiting_with_threads", "mains/exiting_with_threads.py", signal=signal.SIGINT, at=1.4),
         Run("two_nodes", "mains/two_nodes.py", signal=signal.SIGTERM, at=1.75),
         *_both("external_shutdown", "mains/external_shutdown.py", at=1.4),
+        *(_both("init_for_with", "mains/init_for_with.py", at=1.4) if IS_KILTED else ()),
+        Run("init_for_with", "mains/init_for_with.py", ("--shut-down",)),
         *_both("sleeping_callback", "mains/sleeping_callback.py", at=1.5),
         Run("shutting_down", "mains/shutting_down.py"),
         Run("add_service", "mains/add_service.py", signal=signal.SIGINT, at=0.8),

@@ -23,6 +23,7 @@ from unique_identifier_msgs.msg import UUID
 
 from rosbeat.errors import SessionError
 from rosbeat.records import Endpoint
+from rosbeat.ros.differences import let_rclpy_warn
 from rosbeat.ros.exception_origin import asking
 from rosbeat.ros.graph import qos_of
 from rosbeat.ros.processes import NodeState, callback_name
@@ -185,6 +186,7 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
     def init(entity: Entity, *given: Any, **named: Any) -> None:  # noqa: ANN401 - passed on
         with asking(f"{type(entity).__name__}.__init__", *given, **named):
             original(entity, *given, **named)
+        let_rclpy_warn(entity._logger)
         options = order.bind(entity, *given, **named)
         options.apply_defaults()
         node = options.arguments["node"]

@@ -29,6 +29,7 @@ from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnap
 from rosbeat.ros.actions import action_of
 from rosbeat.ros.clock import SessionClock, VirtualWaits, make_clock
 from rosbeat.ros.context import SessionContext
+from rosbeat.ros.differences import RAISES_WHEN_CALL_TIMES_OUT
 from rosbeat.ros.errors import (
     INSTEAD_OF_WAITING,
     Console,
@@ -707,6 +708,8 @@ class SessionCore:
         self.wait("client.call", reason, future.done, timeout_sec, client)
         if not future.done():
             client.remove_pending_request(future)
+            if timeout_sec is not None and RAISES_WHEN_CALL_TIMES_OUT:
+                raise TimeoutError
             if timeout_sec is None and not in_callback:
                 raise SessionError(
                     f"No node has responded to the call of {client.service_name}.",

@@ -36,6 +36,7 @@ from rclpy.task import Task
 from rosbeat.errors import EndlessChainError, SessionError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
+from rosbeat.ros.differences import call_timer
 from rosbeat.ros.errors import never_made
 from rosbeat.ros.processes import Call, Entry, NodeState, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
@@ -840,13 +841,13 @@ class VirtualTimeExecutor(WaitSetExecutor):
             with handle:
                 due = state.spinning and handle.is_timer_ready()
                 if due:
-                    handle.call_timer()
+                    callback = call_timer(entry.entity)
         except InvalidHandle:
             return  # destroyed
         self._agenda.add(entry, self.now)  # before the callback, which may wait for longer
         if due:
             self._chain.timer_fires(entry)
-            self._call(entry, entry.entity.callback)
+            self._call(entry, callback)
 
     def _take(self, entry: Entry) -> bool:
         """Take one thing and run the callback; return whether there was something."""

@@ -25,6 +25,7 @@ from rclpy.subscription import Subscription
 from rclpy.task import Task
 from rclpy.timer import Timer
 
+from rosbeat.ros.differences import HAS_OLDEST_TASK_FIRST
 from rosbeat.ros.isolation import DeadlinePassed
 from rosbeat.ros.processes import Call, Entry, NodeState, Process, callback_name
 from rosbeat.ros.qos_events import event_name, topic_of
@@ -87,7 +88,8 @@ class Waiting:
 class Coroutines:
     """Hold the coroutines of one executor that have not ended, in the order in which they began.
 
-    The newest coroutine of each process continues first, as in rclpy (`_wait_for_ready_callbacks`).
+    The newest coroutine of each process continues first, as in Jazzy (`_wait_for_ready_callbacks`);
+    in Kilted the oldest.
     """
 
     def __init__(self, executor: Executor) -> None:
@@ -125,7 +127,8 @@ class Coroutines:
             of_process: dict[int, list[Waiting]] = {}
             for waiting in self.waiting:
                 of_process.setdefault(id(waiting.process), []).append(waiting)
-            self._round.extend(one for group in of_process.values() for one in reversed(group))
+            for group in of_process.values():
+                self._round.extend(group if HAS_OLDEST_TASK_FIRST else reversed(group))
         return False
 
     def end(self, waiting: Waiting) -> None:
