@@ -10,9 +10,15 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
 - Live mode: `live`, against the wall clock.
 - Parts of nodes: `launch` (starting a node), `context` (rclpy's default context), `qos_events`
   (deadlines and lifespans by the session's clock), `actions`.
+- The distribution of ROS: `distribution` (which rclpy is refused), `differences` (what differs
+  between the supported ones).
 - Observation: `recording` (taps, hooks, recorder), `exception_origin` (from an exception to a
   line), `graph` (nodes and endpoints, in other processes too), `inspection` (why nothing arrives).
 - Running an answer: `isolation` (with a deadline and seeded random numbers), `scenario` (`observe`
   and the steps of a run), `test_nodes` (nodes of the course's own), `programs` (operating-system
   processes).
 """
+
+from rosbeat.ros.distribution import check
+
+check()
