@@ -97,6 +97,15 @@ def test_a_timer_that_is_late_says_by_how_much(ros):
     assert late == [SECOND // 4]
 
 
+@pytest.mark.parametrize("callback", [None, "tell"])
+def test_a_callback_that_cannot_be_called_is_named_in_both(ros, callback):
+    """In Kilted rclpy looks for its parameters first, and says less about it."""
+    ros.add(lambda: Node("early")).create_timer(1.0, callback)
+    ros.run(1, quiet=True)
+    (fault,) = ros.observation().faults
+    assert "object is not callable" in fault.text
+
+
 # What rclpy itself calls although it has deprecated it.
 
 

@@ -97,6 +97,26 @@ class ActionEnd:
         server._execute_goal = execute
         server._rosbeat_end = self
         server.execute = partial(self._serve, server.execute)
+        server.add_to_wait_set = partial(self._look, server, server.add_to_wait_set)
+        server.take_data = partial(self._take, server, server.take_data)
+
+    @staticmethod
+    def _look(server: ActionServer, add_to_wait_set: Callable[[Any], None], wait_set: Any) -> None:  # noqa: ANN401 - rclpy's
+        """Let the time at which goals are forgotten come: rcl measures it by the node's clock."""
+        server._node.get_clock().now()
+        add_to_wait_set(wait_set)
+
+    @staticmethod
+    def _take(server: ActionServer, take: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """Take what is ready, and forget goals whose results were kept for long enough.
+
+        rcl forgets a goal when *more* time has passed (`rcl_action_expire_goals`). At the instant
+        itself, which takes no time on a robot, it would find nothing and look again, forever.
+        """
+        if not server._is_goal_expired:
+            return take()
+        with server._node.get_clock().a_moment_later():
+            return take()
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
         self._core.heard(self._state, self.kind, "serve", self.name)

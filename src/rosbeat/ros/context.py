@@ -18,7 +18,11 @@ import rclpy.utilities
 from rclpy.context import Context
 
 from rosbeat.domains import SESSION_DOMAINS
-from rosbeat.ros.differences import FORGIVES_SHUTDOWN_AFTER_SIGNAL, INIT_IS_FOR_WITH
+from rosbeat.ros.differences import (
+    FORGIVES_SHUTDOWN_AFTER_SIGNAL,
+    INIT_IS_FOR_WITH,
+    SHUTDOWN_DESTROYS_NODES,
+)
 from rosbeat.ros.errors import note
 from rosbeat.ros.recording import in_kernel
 
@@ -180,6 +184,7 @@ class ProgramContext(Context):
     def shutdown(self) -> None:
         """Shut down, and let a `spin` of the program return."""
         by_signal = self.handle is not None and not self.ok() and self._shut_down is not self.handle
+        self._destroy_nodes()
         if not (by_signal and FORGIVES_SHUTDOWN_AFTER_SIGNAL):
             super().shutdown()
         self._shut_down = self.handle
@@ -188,9 +193,16 @@ class ProgramContext(Context):
     def try_shutdown(self) -> None:
         """Shut down if that was not done yet, and let a `spin` of the program return."""
         if self.ok():
+            self._destroy_nodes()
             self._shut_down = self.handle
         super().try_shutdown()
         self.program.shut_down()
+
+    def _destroy_nodes(self) -> None:
+        """Destroy the nodes of the program, as rclpy does if they are in this very context."""
+        if SHUTDOWN_DESTROYS_NODES and self.handle is not None:
+            for node in self.program.nodes:
+                node.destroy_node()
 
 
 def _open_context(context: Context | None) -> Context | None:

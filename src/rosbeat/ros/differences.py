@@ -15,6 +15,7 @@ from typing import Any, cast
 
 import rclpy.event_handler
 from rclpy.client import Client
+from rclpy.context import Context
 from rclpy.executors import Executor
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.timer import Timer
@@ -43,6 +44,12 @@ FORGIVES_SHUTDOWN_AFTER_SIGNAL = INIT_IS_FOR_WITH
 Kilted refuses only a second call ("Context already shutdown."). Jazzy also refuses the first one
 after a signal ("rcl_shutdown already called on the given context"), so that a program that ends as
 those of the tutorials do has exit code 1.
+"""
+
+SHUTDOWN_DESTROYS_NODES = hasattr(Context, "track_node")
+"""Whether `rclpy.shutdown()` destroys the nodes of its context: what uses one of them then raises.
+
+Kilted does.
 """
 
 # Timers. Kilted tells a callback that has a parameter of the type `TimerInfo` when it was due.
@@ -75,7 +82,10 @@ def _parameter_for_info(callback: Callable[..., Any]) -> str | None:
     """Return the first parameter that is annotated with `TimerInfo`, as rclpy looks for it.
 
     A signature takes a hundred times as long as a look at the annotations, and most have none.
+    What cannot be called is called all the same, as in Jazzy: its TypeError names the mistake.
     """
+    if not callable(callback):
+        return None
     plain = isinstance(callback, FunctionType | MethodType) and not hasattr(callback, "__wrapped__")
     if plain and _TimerInfo not in callback.__annotations__.values():
         return None
