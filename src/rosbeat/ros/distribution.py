@@ -94,6 +94,7 @@ def _refusal(what: str) -> UnsupportedRclpyError:
         what,
         f"rosbeat runs nodes in virtual time with private parts of rclpy, and it knows {known}. "
         "With another release, nodes might behave otherwise than on a robot, so nothing is run.",
-        "Use ROS 2 Jazzy or Kilted: source it, or make a virtual environment without a sourced ROS "
-        "and install `ros-jazzy-rclpy` or `ros-kilted-rclpy` there with pip (Linux on x86-64).",
+        "Source ROS 2 Jazzy or Kilted. On Linux on x86-64, pip can also install one, in a new "
+        'virtual environment and with no ROS sourced: `pip install "rosbeat[ros]"` for Jazzy, '
+        '`pip install "rosbeat[kilted]"` for Kilted.',
     )
