@@ -37,6 +37,18 @@ def test_init_returns_what_rclpys_own_returns(ros, capsys):
 
 
 @only_kilted
+def test_init_on_a_page_without_a_session(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "ipykernel.kernelapp", sys)
+    with rclpy.init(domain_id=50):
+        assert rclpy.ok()
+        with rclpy.init():  # it changes nothing, and neither does its end
+            pass
+        assert rclpy.ok()
+    assert not rclpy.ok()
+    assert "ROS is already running in this kernel" in capsys.readouterr().out
+
+
+@only_kilted
 def test_a_program_may_leave_shutting_down_to_with(ros):
     states = []
 
