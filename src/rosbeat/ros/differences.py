@@ -18,12 +18,14 @@ from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import Executor
 from rclpy.impl.rcutils_logger import RcutilsLogger
+from rclpy.task import Task
 from rclpy.timer import Timer
 
-HAS_OLDEST_TASK_FIRST = "reversed" not in Executor._wait_for_ready_callbacks.__code__.co_names
+_LOOP = set(Executor._wait_for_ready_callbacks.__code__.co_names)
+HAS_OLDEST_TASK_FIRST = "popleft" in _LOOP or not _LOOP & {"reversed", "pop"}
 """Whether an executor continues its tasks in the order in which they were created.
 
-Kilted does, and so does Jazzy from 7.1.9 on; before, the newest task goes first (rclpy#1469).
+Kilted does. In Jazzy the newest task goes first.
 """
 
 RAISES_WHEN_CALL_TIMES_OUT = "TimeoutError" in Client.call.__code__.co_names
@@ -51,6 +53,34 @@ SHUTDOWN_DESTROYS_NODES = hasattr(Context, "track_node")
 
 Kilted does.
 """
+
+# The tasks of an executor. From 7.1.9 (Jazzy) and 9.1.4 (Kilted) on, those that have not ended are
+# the keys of a dict, and one that waits is put into a queue when what it waits for has come
+# (rclpy#1469). Before, all are in a list, and each pass asks them.
+
+
+def tasks_of(executor: Executor) -> list[Task]:
+    """Return the tasks of an executor that have not ended."""
+    if hasattr(executor, "_pending_tasks"):
+        return list(executor._pending_tasks)
+    return [task for task, _, _ in executor._tasks]
+
+
+def call_soon(executor: Executor, task: Task) -> None:
+    """Let an executor call a handler that was made for it; before, making it was enough."""
+    if hasattr(executor, "_call_task_in_next_spin"):
+        executor._call_task_in_next_spin(task)
+
+
+def forget_executing(executor: Executor) -> None:
+    """Forget tasks that were interrupted: rclpy would take them for executing, forever."""
+    if hasattr(executor, "_pending_tasks"):
+        for task in tasks_of(executor):
+            if task.executing():
+                del executor._pending_tasks[task]
+    else:
+        executor._tasks[:] = [parts for parts in executor._tasks if not parts[0].executing()]
+
 
 # Timers. Kilted tells a callback that has a parameter of the type `TimerInfo` when it was due.
 

@@ -25,7 +25,7 @@ from rclpy.subscription import Subscription
 from rclpy.task import Task
 from rclpy.timer import Timer
 
-from rosbeat.ros.differences import HAS_OLDEST_TASK_FIRST
+from rosbeat.ros.differences import HAS_OLDEST_TASK_FIRST, forget_executing
 from rosbeat.ros.isolation import DeadlinePassed
 from rosbeat.ros.processes import Call, Entry, NodeState, Process, callback_name
 from rosbeat.ros.qos_events import event_name, topic_of
@@ -215,8 +215,12 @@ class WaitSetExecutor(SingleThreadedExecutor):
     def forget_passes(self) -> None:
         """Let go of a pass that was interrupted."""
         self._cb_iter = None
-        # rclpy would take what was interrupted for running, for ever.
-        self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
+        forget_executing(self)
+
+    def _call_task_in_next_spin(self, task: Task) -> None:
+        """Leave to `Coroutines` what it continues; newer releases of rclpy call this."""
+        if task in self._pending_tasks:
+            super()._call_task_in_next_spin(task)
 
     def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
         self._core.callback_ran(entity, node)
