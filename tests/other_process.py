@@ -6,6 +6,8 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
+from rosbeat import environment
+
 # It announces itself often, so that it is found at once and not after up to three seconds.
 PROFILE = (
     Path(__file__).parents[1] / "src" / "ros2_command" / "ros2_command" / "data" / "fastdds.xml"
@@ -33,7 +35,7 @@ except ExternalShutdownException:
 def other_process(domain_id, nodes):
     """Run nodes, given as Python expressions with a comma after each, until the block ends."""
     environ = {**os.environ, "ROS_DOMAIN_ID": str(domain_id)}
-    environ["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(PROFILE)
+    environ[environment.profile_variable()] = str(PROFILE)
     environ["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
     process = subprocess.Popen(
         [sys.executable, "-c", PROGRAM.format(nodes=nodes)], env=environ, stdout=subprocess.PIPE,

@@ -33,7 +33,8 @@ DOCUMENTS = {
     ),
     "For contributors": (
         "docs/CONTRIBUTING.md", "docs/CODE_OF_CONDUCT.md", "docs/SECURITY.md",
-        "docs/architecture.md", "docs/simulation.md", "docs/authoring.md", "docs/exercises.md",
+        "docs/architecture.md", "docs/simulation.md", "docs/distributions.md",
+        "docs/authoring.md", "docs/exercises.md",
         "docs/mutants.md", "docs/claims.md", "src/ros2_command/README.md", "docs/releasing.md",
         "docs/changelog.md",
     ),

@@ -26,7 +26,8 @@ Usage:  ./environment/course COMMAND [OPTIONS]
   shell    a bash in which ROS and the course's Python are active; -c "command" runs one command
   doctor   say what works here, with the cure for what does not
   test     check everything: lint, types, pages, tests; --thorough adds tests that take minutes;
-           with other arguments, pytest alone runs with them
+           with other arguments, pytest alone runs with them; --ros kilted runs what concerns the
+           engine on that distribution, in .venv-kilted
   bench    measure the course on this machine
   site     build the course as a site (dist/site); --open shows it in the browser
   hub      run JupyterHub for a class on this machine: docs/jupyterhub.md

@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn
 
 from course_tool import installing, prepare, running
-from course_tool.layout import Layout
+from course_tool.layout import COURSE_ROS, LEVELS, Layout
 from course_tool.problems import Problem, say
 
+#: The locks in the order in which they are made, and what constrains their versions. Tests run on
+#: the very versions that learners get, and the hub shares their `.venv`. On another distribution
+#: only the packages of ROS differ, so that a test that fails there alone shows what ROS changed.
+_TEST_WITHOUT_ROS = "test.lock without ROS"
+_LOCKS = {
+    "bootstrap": None,
+    "build": None,
+    "course": None,
+    "test": "course.lock",
+    "site": None,
+    "hub": "course.lock",
+    **{level: _TEST_WITHOUT_ROS for ros in LEVELS if ros != COURSE_ROS for level in LEVELS[ros]},
+}
 _SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]
 
 
@@ -85,21 +100,40 @@ def site(layout: Layout, arguments: Sequence[str]) -> int:
 def lock(layout: Layout, options: Sequence[str]) -> int:
     """Remake every lock; versions stay unless `--upgrade` is among the options."""
     environ = installing.for_installers(layout, prepare.ready(layout, "course"))
-    for name in ("bootstrap", "build", "course", "test", "site", "hub"):
-        say(f"  {name}.in -> {name}.lock")
-        command = compile_command(layout, name, options)
-        installing.install(command, environ, cwd=layout.environment)
+    with tempfile.TemporaryDirectory() as folder:
+        without_ros = Path(folder) / "test-without-ros.txt"
+        for name, constraint in _LOCKS.items():
+            say(f"  {name}.in -> {name}.lock")
+            if constraint == _TEST_WITHOUT_ROS:
+                without_ros.write_text(pins_without_ros(layout), encoding="utf-8")
+                constraint = str(without_ros)
+            command = compile_command(layout, name, options, constraint)
+            installing.install(command, environ, cwd=layout.environment)
     return 0
 
 
-def compile_command(layout: Layout, name: str, options: Sequence[str]) -> list[str | Path]:
-    """Return the command that makes one lock, valid for every Python of the course."""
-    # The tests run on the very versions that learners get, and the hub shares their `.venv`.
-    same_versions = ["--constraint", "course.lock"] if name in ("test", "hub") else []
+def compile_command(
+    layout: Layout, name: str, options: Sequence[str], constraint: str | None = None
+) -> list[str | Path]:
+    """Return the command that makes one lock, valid for every Python of the course.
+
+    Args:
+        layout: The checkout.
+        name: The lock.
+        options: More options of `uv pip compile`.
+        constraint: A file with versions that packages have if they are needed.
+    """
     return [
         *(layout.uv, "pip", "compile", "--universal", "--generate-hashes", "--quiet"),
         *("--python-version", "3.10", "--no-emit-index-url", "--no-emit-find-links"),
         *("--no-annotate", "--custom-compile-command", "./environment/course lock"),
-        *("--override", "override.in"),
-        *(*same_versions, *options, f"{name}.in", "--output-file", f"{name}.lock"),
+        *("--override", "override.in", *(("--constraint", constraint) if constraint else ())),
+        *(*options, f"{name}.in", "--output-file", f"{name}.lock"),
     ]
+
+
+def pins_without_ros(layout: Layout) -> str:
+    """Return the locked versions of the tests, without the packages of ROS."""
+    text = layout.lock("test").read_text(encoding="utf-8")
+    pins = re.findall(r"^[\w.-]+==[^\\\n]*", text, re.MULTILINE)
+    return "".join(f"{pin}\n" for pin in pins if not pin.startswith("ros-"))

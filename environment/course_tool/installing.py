@@ -1,4 +1,4 @@
-"""Fills `.venv` from a lock: uv (through pip), everything else (through uv), and what is ours.
+"""Fills an environment from a lock: uv (through pip), all else (through uv), and what is ours.
 
 Ours is what makes `.venv` an underlay, as a ROS of the system is one: `source .venv/setup.bash`
 activates it. The files that ament's templates make would put the packages of `.venv` on PYTHONPATH,
@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from course_tool import running
-from course_tool.layout import Layout
+from course_tool.layout import COURSE_ROS, Layout
 from course_tool.problems import Problem, say
 
 # Runs at the start of every Python of the environment. `_rosbeat_environment` is a link to
@@ -63,7 +63,8 @@ def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     for command in (lock_command(layout, level), own_command(layout)):
         install(command, env)
     write_start_hook(layout)
-    write_lab_defaults(layout)
+    if layout.ros == COURSE_ROS:
+        write_lab_defaults(layout)  # of other distributions, only the tests run
     write_underlay(layout, environ)
 
 
@@ -85,7 +86,8 @@ def install(
             "Behind a proxy, set HTTPS_PROXY, and SSL_CERT_FILE if it has its own certificates.\n"
             "With an index of your own, set UV_DEFAULT_INDEX and PIP_INDEX_URL.\n"
             "No wheel for this platform: ROS 2 needs glibc 2.28; try ./environment/container\n"
-            "If it stops again, remove the folder .venv and run the command once more.",
+            "If it stops again, remove the folder that it fills (.venv; for the tests on another\n"
+            "distribution, .venv-kilted) and run the command once more.",
         )
 
 

@@ -8,8 +8,10 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-LEVELS = ("course", "test")
-"""What an environment is for; each level contains the one before it."""
+COURSE_ROS = "jazzy"
+"""The ROS distribution that the course is made for."""
+LEVELS = {COURSE_ROS: ("course", "test"), "kilted": ("kilted",)}
+"""What an environment of each distribution is for; each level contains the one before it."""
 WORKSPACE = "ROS2_and_RL_Tutorials"
 """The name of the learner's workspace."""
 LEARNERS_FOLDER = "ROSBEAT_MY_COURSE"
@@ -24,11 +26,13 @@ class Layout:
         root: The checkout; of a wheel, the folder `course` in the package `rosbeat`.
         prefix: The environment that the wheel is installed in; in a checkout, it is `.venv`.
         own: The learner's own folder, which is not in the wheel.
+        ros: The distribution in the virtual environment; each has an environment of its own.
     """
 
     root: Path
     prefix: Path | None = None
     own: Path | None = None
+    ros: str = COURSE_ROS
 
     @property
     def environment(self) -> Path:
@@ -43,7 +47,13 @@ class Layout:
     @property
     def venv(self) -> Path:
         """Return the virtual environment."""
-        return self.prefix or self.root / ".venv"
+        name = ".venv" if self.ros == COURSE_ROS else f".venv-{self.ros}"
+        return self.prefix or self.root / name
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """Return what the virtual environment can be for; each level contains the one before it."""
+        return LEVELS[self.ros]
 
     @property
     def python(self) -> Path:

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from course_tool import installing, running
-from course_tool.layout import LEVELS, Layout
+from course_tool.layout import Layout
 from course_tool.problems import Problem, last_lines, say
 
 GIGABYTE = 10**9
@@ -58,9 +58,10 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
 def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     python = f"Python {platform.python_version()}"
     if is_usable(layout):
-        say(f"Something changed since .venv was made; refreshing it with {python}.")
+        say(f"Something changed since {layout.venv.name} was made; refreshing it with {python}.")
     else:
-        say(f"Preparing .venv with {python}. The first time takes about a minute and 1.5 GB.")
+        name = layout.venv.name
+        say(f"Preparing {name} with {python}. The first time takes about a minute and 1.5 GB.")
         make(layout, environ)
     installing.fill(layout, level, environ)
     say("  4/4  listening for a first ROS message")
@@ -122,14 +123,15 @@ def exclusive(folder: Path) -> Iterator[None]:
 
 def make(layout: Layout, environ: Mapping[str, str]) -> None:
     """Make an empty `.venv`, in the place of one that cannot be used."""
-    say("  1/4  making .venv")
+    say(f"  1/4  making {layout.venv.name}")
     command = [sys.executable, "-I", "-m", "venv", "--clear", str(layout.venv)]
     is_whole = all(importlib.util.find_spec(name) for name in ("venv", "ensurepip"))
     if not is_whole or subprocess.run(command, env=dict(environ), check=False).returncode != 0:
         version = "{}.{}".format(*sys.version_info[:2])
         raise Problem(
-            f"Python {version} is here ({sys.executable}), but its venv module made no .venv.",
-            "The course keeps everything it installs in .venv and needs that module to make it.",
+            f"Python {version} is here ({sys.executable}), but its venv module made no "
+            f"{layout.venv.name}.",
+            "The course keeps everything it installs there and needs that module to make it.",
             f"On Debian or Ubuntu, it is a package:  sudo apt install python{version}-venv\n"
             "Then run the same command again.",
         )
@@ -169,13 +171,14 @@ def stamped_level(layout: Layout) -> str | None:
 
 def at_least(layout: Layout, level: str) -> str:
     """Return the higher of a level and the one that is there: nobody loses tools."""
-    return max(level, stamped_level(layout) or level, key=LEVELS.index)
+    return max(level, stamped_level(layout) or level, key=layout.levels.index)
 
 
 def is_satisfied(layout: Layout, level: str) -> bool:
     """Tell whether the environment is complete, fresh and good for a level."""
     made = stamped_level(layout)
-    if made is None or not is_usable(layout) or LEVELS.index(made) < LEVELS.index(level):
+    index = layout.levels.index
+    if made is None or not is_usable(layout) or index(made) < index(level):
         return False
     return bool(_stamp(layout)["fingerprint"] == fingerprint(layout, made))
 
@@ -212,9 +215,9 @@ def ask_ros(layout: Layout, environ: Mapping[str, str]) -> dict[str, Any]:
     result = running.quiet([layout.python, script], environ, timeout=_ROS_DEADLINE)
     if not result.ok:
         raise Problem(
-            "ROS 2 is installed in .venv, but a first node does not start.",
-            "No page of the course would run, so it is not opened.",
-            "Remove the folder .venv and run the same command again.\n"
+            f"ROS 2 is installed in {layout.venv.name}, but a first node does not start.",
+            "No page of the course and no test would run, so nothing is opened or run.",
+            f"Remove the folder {layout.venv.name} and run the same command again.\n"
             "If it stays like this, send the lines below to the course's issue tracker.",
             last_lines(result.text),
         )
@@ -223,8 +226,8 @@ def ask_ros(layout: Layout, environ: Mapping[str, str]) -> dict[str, Any]:
         raise Problem(
             "A first node publishes, and a subscriber in the same process hears nothing.",
             "ROS 2 starts here, but its messages do not travel.",
-            "Look whether ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE or\n"
-            "FASTRTPS_DEFAULT_PROFILES_FILE is set to something unusual, and whether the\n"
-            "loopback interface is up:  ip link show lo",
+            "Look whether ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE,\n"
+            "FASTDDS_DEFAULT_PROFILES_FILE or FASTRTPS_DEFAULT_PROFILES_FILE is set to something\n"
+            "unusual, and whether the loopback interface is up:  ip link show lo",
         )
     return facts

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from course_tool.layout import Layout
+from course_tool.layout import COURSE_ROS, Layout
 from course_tool.problems import say
 
 _LISTS = (
@@ -29,6 +29,9 @@ _LISTS = (
     "PYTHONPATH",
 )
 _SCALARS = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_ETC_DIR", "ROS_PACKAGE_PATH")
+#: Under these names an environment of this checkout tells Fast DDS its settings. Which of them it
+#: reads depends on the distribution, so each environment sets its own.
+_PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 _INDEX = os.path.join("share", "ament_index", "resource_index", "packages", "rclpy")
 
 
@@ -93,12 +96,14 @@ def cleaned(environ: Mapping[str, str], layout: Layout) -> Environment:
         # Would send the Python of .venv to another standard library.
         "PYTHONHOME",
         *(_SCALARS if others else ()),
+        *(name for name in _PROFILES if _within(environ.get(name, ""), str(layout.root))),
     }
     kept = {name: value for name, value in environ.items() if name not in gone}
     notes = []
     if others:
         named = ", ".join(others)
-        notes.append(f"Another ROS is sourced ({named}); here the course uses its own, in .venv.")
+        own = layout.venv.name
+        notes.append(f"Another ROS is sourced ({named}); here the course uses its own, in {own}.")
         for name in _LISTS:
             entries = _split(kept.pop(name, ""))
             left = [one for one in entries if not any(_within(one, root) for root in others)]
@@ -116,16 +121,26 @@ def other_roots(environ: Mapping[str, str], layout: Layout) -> list[str]:
     """Return the prefixes of a ROS that is not the course's, and of what was built on it."""
     listed = [entry for name in _LISTS for entry in _split(environ.get(name, ""))]
     system = {"/".join(entry.split("/")[:4]) for entry in listed if entry.startswith("/opt/ros/")}
-    ours = os.path.realpath(layout.root)
     prefixes = [
         one
         for one in _split(environ.get("AMENT_PREFIX_PATH", ""))
-        if not _within(os.path.realpath(one), ours)
+        if not _is_ours(os.path.realpath(one), layout)
     ]
     if system or any(os.path.exists(os.path.join(entry, _INDEX)) for entry in prefixes):
         # Workspaces on top of the other ROS go with it: they were built for its Python.
         system.update(prefixes)
     return sorted(system)
+
+
+def _is_ours(entry: str, layout: Layout) -> bool:
+    """Tell whether a prefix is of this checkout, and for the distribution of a layout.
+
+    The workspaces of the course are for the distribution of the course.
+    """
+    root = os.path.realpath(layout.root)
+    if layout.ros != COURSE_ROS:
+        return _within(entry, os.path.realpath(layout.venv))
+    return _within(entry, root) and not entry.startswith(os.path.join(root, ".venv-"))
 
 
 def _within(entry: str, root: str) -> bool:

@@ -8,12 +8,13 @@ import tempfile
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from pathlib import Path
 from xml.etree import ElementTree
 
 from course_tool import prepare
-from course_tool.layout import Layout
+from course_tool.layout import COURSE_ROS, LEVELS, Layout
 from course_tool.problems import Problem, say
 from course_tool.running import quiet
 
@@ -22,6 +23,9 @@ _AT_ONCE = 2
 #: Each test process may lease several of the 51 domain ids for programs.
 _MOST_WORKERS = 6
 _TESTS = "tests: units, ROS, pages"
+#: What must hold on every distribution: the engine, beside real rclpy, with the answers to all
+#: exercises, and in the fixture. Pages and the `ros2` command are for that of the course.
+_ON_EVERY_ROS = ("tests/ros", "tests/conformance", "tests/bank", "tests/rosbeat/test_testing.py")
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,8 @@ class Counts:
 def test(layout: Layout, arguments: Sequence[str]) -> int:
     """Run every step, or only pytest when there are arguments for it.
 
-    `--thorough` alone runs every step, and the tests that take minutes as well.
+    `--thorough` alone runs every step, and the tests that take minutes as well. `--ros kilted` runs
+    tests on another distribution than that of the course, in an environment of its own.
     """
     if not (layout.root / "tests").is_dir():
         raise Problem(
@@ -53,7 +58,9 @@ def test(layout: Layout, arguments: Sequence[str]) -> int:
             "It holds what learners get, and the tests are for those who work on the course.",
             "./environment/course doctor  looks at what works here.",
         )
-    environ = prepare.ready(layout, "test")
+    ros, arguments = distribution(arguments)
+    layout = replace(layout, ros=ros)
+    environ = prepare.ready(layout, layout.levels[-1])
     thorough = list(arguments) == ["--thorough"]
     if arguments and not thorough:
         return subprocess.call([layout.python, "-m", "pytest", *arguments], env=environ)
@@ -71,6 +78,32 @@ def test(layout: Layout, arguments: Sequence[str]) -> int:
     return 0 if all(verdict.ok for verdict in verdicts) else 1
 
 
+def distribution(arguments: Sequence[str]) -> tuple[str, list[str]]:
+    """Return the distribution that `--ros` names, that of the course by default, and the rest.
+
+    Raises:
+        Problem: If there is no such distribution.
+    """
+    name, rest, words = COURSE_ROS, [], iter(arguments)
+    for word in words:
+        if word == "--ros":
+            name = next(words, "")
+        elif word.startswith("--ros="):
+            name = word.removeprefix("--ros=")
+        else:
+            rest.append(word)
+    if name not in LEVELS:
+        known = " and ".join(LEVELS)
+        near = get_close_matches(name.lower(), LEVELS, n=1) or [*LEVELS][-1:]
+        raise Problem(
+            f"There is no ROS distribution '{name}' here." if name else "--ros names nothing.",
+            f"The tests run on {known}: for each there is a list of versions in environment/.",
+            f"./environment/course test --ros {near[0]}\n"
+            "docs/distributions.md says how to take up another one.",
+        )
+    return name, rest
+
+
 def workers(cores: int | None) -> int:
     """Return how many processes share the tests: one more than cores, for each waits at times.
 
@@ -83,8 +116,10 @@ def workers(cores: int | None) -> int:
 def steps(layout: Layout, report: Path, thorough: bool = False) -> dict[str, list[str]]:
     """Return the commands that `course test` runs, by name and in order; tests are the last.
 
+    On another distribution than that of the course these are tests only, and not all of them.
+
     Args:
-        layout: The checkout.
+        layout: The checkout, with the environment of the distribution.
         report: Where pytest writes what it counted.
         thorough: Whether to run the tests that take minutes as well.
     """
@@ -93,6 +128,9 @@ def steps(layout: Layout, report: Path, thorough: bool = False) -> dict[str, lis
     # The order of the files is that of conftest.py, where the longest come first.
     shared = ("-n", str(workers(os.cpu_count())), "--dist", "loadfile", "--no-loadscope-reorder")
     more = ("--thorough",) if thorough else ()
+    tests = [python, "-m", "pytest", *shared, f"--junitxml={report}", *more]
+    if layout.ros != COURSE_ROS:
+        return {_TESTS: [*tests, *_ON_EVERY_ROS]}
     tool = str(layout.environment / "course_tool")
     return {
         "lint": [python, "-m", "ruff", "check"],
@@ -101,7 +139,7 @@ def steps(layout: Layout, report: Path, thorough: bool = False) -> dict[str, lis
         "types of the course tool": [*mypy, "--config-file=", "--strict", tool],
         # Solution pages are run once, by pytest, which compares them as `build --check` would.
         "pages are what their sources say": [python, rosbeat, "build", "--check", "--no-run"],
-        _TESTS: [python, "-m", "pytest", *shared, f"--junitxml={report}", *more],
+        _TESTS: tests,
     }
 
 

@@ -28,10 +28,12 @@ __all__ = [
     "apply_for_tests",
     "defaults",
     "discovery_profile",
+    "distribution",
     "domain_id",
     "learners_folder",
     "leased_domains",
     "other_ros",
+    "profile_variable",
     "shell_lines",
     "usual_domain_id",
     "who",
@@ -44,8 +46,15 @@ DOMAIN = "ROS_DOMAIN_ID"
 CHOSEN = "ROSBEAT_DOMAIN_ID"
 """Holds the domain id that the course has chosen. Another ROS_DOMAIN_ID is somebody's decision."""
 
+PROFILE_VARIABLES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
+"""Name the settings of Fast DDS, in release 3 (Kilted) and in release 2 (Jazzy).
+
+Fast DDS 3 prints a warning about the old name, and Fast DDS 2 does not know the new one.
+"""
+
+#: The distributions of ROS, by the first number of their rclpy.
+_DISTRIBUTIONS = {"7": "jazzy", "9": "kilted"}
 _PATH = "AMENT_PREFIX_PATH"
-_PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 #: Makes ROS take from that file how much memory a topic gets; see there.
 _FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
 _COLCON = "COLCON_DEFAULTS_FILE"
@@ -124,6 +133,38 @@ def discovery_profile() -> str:
     return found or (in_wheel if os.path.exists(in_wheel) else "")
 
 
+def distribution(prefix: str | None = None, environ: Mapping[str, str] | None = None) -> str:
+    """Return the name of the ROS distribution: that of the installation, else of a sourced ROS.
+
+    Args:
+        prefix: The installation, by default that of the running Python.
+        environ: The environment that names a sourced ROS, by default that of this process.
+
+    Returns:
+        "jazzy" where there is no rclpy yet, and nothing for an rclpy that is not known here.
+    """
+    for entry in (prefix or sys.prefix, *_entries(os.environ if environ is None else environ)):
+        try:
+            with open(
+                os.path.join(entry, "share", "rclpy", "package.xml"), encoding="utf-8"
+            ) as file:
+                major = file.read().partition("<version>")[2].partition(".")[0]
+        except (OSError, ValueError):
+            continue
+        return _DISTRIBUTIONS.get(major.strip(), "")
+    return "jazzy"
+
+
+def profile_variable(prefix: str | None = None, environ: Mapping[str, str] | None = None) -> str:
+    """Return the variable that names the settings of Fast DDS, in a distribution's Fast DDS.
+
+    Args:
+        prefix: The installation, by default that of the running Python.
+        environ: The environment that names a sourced ROS, by default that of this process.
+    """
+    return PROFILE_VARIABLES[distribution(prefix, environ) == "jazzy"]
+
+
 def learners_folder() -> str:
     """Return the learner's own folder; an empty text if none was made yet.
 
@@ -146,14 +187,15 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
     Args:
         prefix: The installation that brings ROS, by default that of the running Python.
     """
-    return _settings(prefix) | _domain(prefix)
+    return _settings(os.environ, prefix) | _domain(prefix)
 
 
 def _domain(prefix: str | None) -> dict[str, str]:
     return dict.fromkeys((DOMAIN, CHOSEN), str(domain_id(prefix)))
 
 
-def _settings(prefix: str | None) -> dict[str, str]:
+def _settings(environ: Mapping[str, str], prefix: str | None) -> dict[str, str]:
+    name = distribution(prefix, environ)
     return {
         _PATH: prefix or sys.prefix,
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
@@ -164,10 +206,10 @@ def _settings(prefix: str | None) -> dict[str, str]:
         # Each message package imports NumPy, whose further threads only make nodes start later: no
         # node of the course multiplies matrices.
         "OPENBLAS_NUM_THREADS": "1",
-        "ROS_DISTRO": "jazzy",
+        **({"ROS_DISTRO": name} if name else {}),
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
-        **_files(),
+        **_files(profile_variable(prefix, environ)),
         **_workspace(),
         **_plain_python(prefix or sys.prefix),
     }
@@ -218,7 +260,7 @@ def apply(
     settled = _settled(target, prefix)
     missing = {
         name: value
-        for name, value in _settings(prefix).items()
+        for name, value in _settings(target, prefix).items()
         if not target.get(name) and name not in settled
     }
     missing.update(_longer_path(target, prefix or sys.prefix))
@@ -252,14 +294,14 @@ def _around_here() -> str:
     return folder
 
 
-def _files() -> dict[str, str]:
+def _files(profile: str) -> dict[str, str]:
     """Return the settings that are files of the course, as far as they are there, and theirs."""
     settings = ("environment", "colcon.yaml")
     in_wheel = os.path.join(os.path.dirname(os.path.realpath(__file__)), "course", *settings)
     colcon = _in_checkout(*settings) or (in_wheel if os.path.exists(in_wheel) else "")
-    files = {_PROFILE: discovery_profile(), _COLCON: colcon}
+    files = {profile: discovery_profile(), _COLCON: colcon}
     found = {name: path for name, path in files.items() if path}
-    return {**found, _FROM_PROFILE: "1"} if _PROFILE in found else found
+    return {**found, _FROM_PROFILE: "1"} if profile in found else found
 
 
 def _workspace() -> dict[str, str]:
@@ -291,10 +333,8 @@ def _settled(environ: Mapping[str, str], prefix: str | None) -> list[str]:
     """Return the variables in whose place something else of the person's stands."""
     home = environ.get("COLCON_HOME") or os.path.join(os.path.expanduser("~"), ".colcon")
     settled = list(_INSTALLATION) if other_ros(environ, prefix) else []
-    if environ.get("FASTDDS_DEFAULT_PROFILES_FILE"):
-        settled += [_PROFILE, _FROM_PROFILE]
-    elif environ.get(_PROFILE, "") not in ("", discovery_profile()):
-        settled.append(_FROM_PROFILE)
+    if any(environ.get(name, "") not in ("", discovery_profile()) for name in PROFILE_VARIABLES):
+        settled += [*PROFILE_VARIABLES, _FROM_PROFILE]
     if os.path.exists(os.path.join(home, "defaults.yaml")):
         settled.append(_COLCON)
     return settled

@@ -27,6 +27,7 @@
     ├── BagError                    a recording cannot be written, read, replayed or compared
     ├── GradingError                submissions cannot be collected, graded or reported
     ├── CallError                a function was called with arguments that it does not take
+    ├── UnsupportedRclpyError       rclpy is of a distribution of ROS that the engine does not know
     ├── RecordError                 saved data that does not follow the schema
     ├── CommandError                the command line was used in a way it does not know
     └── StoppedError                a person has stopped a command (Ctrl-C); what is done stays
@@ -137,6 +138,10 @@ class NoSessionError(SessionError):
 
 class ClosedSessionError(SessionError):
     """Signal that the session is closed, so its ROS context no longer exists."""
+
+
+class UnsupportedRclpyError(RosbeatError, ImportError):
+    """Signal that rclpy belongs to a distribution of ROS that the engine does not know."""
 
 
 class PictureError(RosbeatError):

@@ -26,6 +26,7 @@ from rosbeat.diagnosis.topic_snapshot import (
 )
 from rosbeat.domains import PRIVATE_IDS, SESSION_DOMAINS
 from rosbeat.records import NANOSECONDS, Endpoint, GraphSnapshot, is_hidden
+from rosbeat.ros.differences import tasks_for
 from rosbeat.ros.graph import (
     GraphObserver,
     domains_in_use,
@@ -103,9 +104,7 @@ def _waiting_coroutines(core: SessionCore, entry: Entry) -> list[Any]:
     executors = {process.executor, process.global_executor, entry.state.node.executor} - {None}
     if core.live is not None:
         executors.add(core.live)
-    # An executor keeps with each task the entity whose callback it is.
-    tasks = [parts for executor in executors for parts in executor._tasks]
-    return [task for task, entity, _ in tasks if entity is entry.entity and not task.done()]
+    return [task for executor in executors for task in tasks_for(executor, entry.entity)]
 
 
 def _group_holder(core: SessionCore, entry: Entry) -> Entry | None:

@@ -2,6 +2,7 @@
 
 import re
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 
@@ -9,6 +10,7 @@ from bank import examples
 from bank.pages import NODE_EXERCISES
 from bank.reading import answers, hidden, parse
 from bank.running import ENDLESS, told
+from distributions import IS_KILTED
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.exercises.registry import EXERCISES
 
@@ -18,6 +20,22 @@ ON_PAGES = sorted(set(EXERCISES) - {"system"})
 #: Rows of the table of mistakes that a cell with a node class can show. The others belong to
 #: terminals and files (20 to 29), or need a program of their own or a second one.
 ROWS = {*range(1, 17), 17, 19, 30}
+
+
+#: What answers get in Kilted whose rclpy says something else about them: status and mistakes.
+ON_KILTED = {
+    ("03a", "rclpy.init in a with statement"): ("passed", ()),
+    # It takes arguments by position, and the history is the first.
+    ("08a", "a depth without its name"): ("failed", ("depth-missing",)),
+}
+
+
+def on_this_ros(answer):
+    """Return an answer with what it gets on the distribution that the tests run on."""
+    if not IS_KILTED or (answer.exercise, answer.name) not in ON_KILTED:
+        return answer
+    status, mistakes = ON_KILTED[answer.exercise, answer.name]
+    return replace(answer, status=status, mistakes=mistakes)
 
 
 def assert_told(answer, workspace):
@@ -37,13 +55,14 @@ def assert_told(answer, workspace):
 def is_shown_as(answer, found):
     """Return whether `rosbeat class` says the same of this answer, if it is among its examples.
 
-    Where an endless answer was depends on the machine, and the words of an error on Python.
+    Where an endless answer was depends on the machine, and the words of an error on Python and on
+    rclpy.
     """
     said = examples.shown().get((answer.exercise, examples.digest(answer), found.mistake))
     if said is None or found.mistake in ENDLESS:
         return True
     seen, hint = examples.words(found)
-    return said[1] == hint and ("Error" in seen or said[0] == seen)
+    return said[1] == hint and (IS_KILTED or "Error" in seen or said[0] == seen)
 
 
 def leaks(exercise, hint):
@@ -55,7 +74,7 @@ def leaks(exercise, hint):
 @pytest.mark.ros
 @pytest.mark.parametrize("answer", ANSWERS, ids=lambda one: one.id)
 def test_an_answer_is_told_what_is_right_or_wrong(answer, workspace):
-    assert_told(answer, workspace)
+    assert_told(on_this_ros(answer), workspace)
 
 
 def assert_sound(found):

@@ -120,7 +120,10 @@ def call_in_a_single_thread() -> list[Process]:
 
 @case(2.6)
 def call_with_timeout_in_a_single_thread() -> list[Process]:
-    """`call` with a timeout in a callback of a single thread returns None when it is over."""
+    """`call` with a timeout in a callback of a single thread ends when it is over.
+
+    It returns None in Jazzy, and raises TimeoutError in Kilted.
+    """
 
     class Patient(CallingNode):
         timeout = 0.7

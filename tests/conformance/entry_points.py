@@ -22,6 +22,7 @@ from pathlib import Path
 from queue import Queue
 
 from conformance.machine import Watch
+from distributions import IS_KILTED
 
 FOLDER = Path(__file__).parent
 
@@ -120,6 +121,8 @@ def _both(name: str, file: str, at: float = 1.5) -> list[Run]:
 
 _REMAPPED = ("-r", "__node:=x", "-r", "temperature:=humidity", "-p", "limit:=3.5", "-p", "unit:=F")
 
+_CONTEXT_STILL_WORKS = "What belongs to a context that was shut down still works in a session."
+
 RUNS = {
     run.name: run
     for run in [
@@ -136,8 +139,15 @@ RUNS = {
         Run("exiting_with_threads", "mains/exiting_with_threads.py", signal=signal.SIGINT, at=1.4),
         Run("two_nodes", "mains/two_nodes.py", signal=signal.SIGTERM, at=1.75),
         *_both("external_shutdown", "mains/external_shutdown.py", at=1.4),
+        *(_both("init_for_with", "mains/init_for_with.py", at=1.4) if IS_KILTED else ()),
+        Run("init_for_with", "mains/init_for_with.py", ("--shut-down",)),
         *_both("sleeping_callback", "mains/sleeping_callback.py", at=1.5),
         Run("shutting_down", "mains/shutting_down.py"),
+        Run(
+            "publish_after_shutdown", "mains/publish_after_shutdown.py",
+            # In Kilted a shutdown destroys the nodes, here as well.
+            differs="" if IS_KILTED else _CONTEXT_STILL_WORKS,
+        ),
         Run("add_service", "mains/add_service.py", signal=signal.SIGINT, at=0.8),
         Run(
             "add_client_without_server-SIGINT", "mains/add_client.py", ("2", "3"), signal.SIGINT,
@@ -146,7 +156,7 @@ RUNS = {
         Run(
             "add_client_without_server-SIGTERM", "mains/add_client.py", ("2", "3"), signal.SIGTERM,
             at=1.6, first_line=1.0,
-            differs="Clients of a context that was shut down still work in a session.",
+            differs=_CONTEXT_STILL_WORKS,
         ),
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
         Run("arguments", "mains/arguments.py", ("one", "--ros-args", *_REMAPPED, "--", "two"),

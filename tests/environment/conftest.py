@@ -18,7 +18,7 @@ def layout(tmp_path: Path) -> Layout:
     """A checkout with locks, in a folder whose name has a space."""
     found = Layout(tmp_path / "my course")
     found.environment.mkdir(parents=True)
-    for name in ("course", "test", "build"):
+    for name in ("course", "test", "build", "kilted"):
         found.lock(name).write_text(f"# {name}\n")
     found.lock("bootstrap").write_text("uv==1.2.3 \\\n    --hash=sha256:00\n")
     for folder in found.own_packages:

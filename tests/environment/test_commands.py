@@ -146,6 +146,69 @@ def test_arguments_go_to_pytest_alone(layout, monkeypatch):
     assert ran == [[layout.python, "-m", "pytest", "-k", "clock"]]
 
 
+@pytest.fixture
+def ran(layout, monkeypatch):
+    """What `course test` runs, and in which environment."""
+    ran = []
+    (layout.root / "tests").mkdir()
+
+    def call(command, env, cwd=None):
+        ran.append((env["VENV"], [str(word) for word in command]))
+        return 0
+
+    def ready(layout, level):
+        return {"VENV": f"{layout.venv.name} {level}"}
+
+    monkeypatch.setattr(prepare, "ready", ready)
+    monkeypatch.setattr(testing.subprocess, "call", call)
+    return ran
+
+
+@pytest.mark.parametrize("words", [["--ros", "kilted"], ["--ros=kilted"]])
+def test_on_another_distribution_the_tests_of_the_engine_run_alone(layout, ran, words, capsys):
+    assert testing.test(layout, [*words, "--thorough"]) == 0
+    ((venv, command),) = ran
+    assert venv == ".venv-kilted kilted"
+    assert command[:3] == [str(layout.root / ".venv-kilted" / "bin" / "python"), "-m", "pytest"]
+    where = command.index("--thorough") + 1
+    assert {"tests/ros", "tests/conformance", "tests/bank"} < set(command[where:])
+    root = ENVIRONMENT.parent
+    assert all((root / place).exists() for place in command[where:])
+    assert "=== summary" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "venv"),
+    [
+        (["-k", "clock", "--ros", "kilted"], ".venv-kilted kilted"),
+        (["--ros", "kilted", "-k", "clock"], ".venv-kilted kilted"),
+        (["--ros", "jazzy", "-k", "clock"], ".venv test"),
+    ],
+)
+def test_further_arguments_go_to_pytest_alone_there_too(layout, ran, words, venv):
+    assert testing.test(layout, words) == 0
+    ((environment, command),) = ran
+    assert (environment, command[1:]) == (venv, ["-m", "pytest", "-k", "clock"])
+
+
+@pytest.mark.parametrize(
+    ("words", "happened", "cure"),
+    [
+        (["--ros", "kitled"], "There is no ROS distribution 'kitled' here.", "--ros kilted"),
+        (["--ros=Jazzy"], "There is no ROS distribution 'Jazzy' here.", "--ros jazzy"),
+        (["--ros", "lyrical"], "There is no ROS distribution 'lyrical' here.", "--ros kilted"),
+        (["-q", "--ros"], "--ros names nothing.", "--ros kilted"),
+    ],
+)
+def test_an_unknown_distribution_is_said_in_three_parts(layout, ran, words, happened, cure):
+    with pytest.raises(Problem) as caught:
+        testing.test(layout, words)
+    assert caught.value.happened == happened
+    assert "jazzy and kilted" in caught.value.means
+    assert cure in caught.value.cure
+    assert ran == []
+
+
 def test_without_tests_nothing_is_installed(layout):
     with pytest.raises(Problem, match="no tests in this folder"):
         testing.test(layout, [])

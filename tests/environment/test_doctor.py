@@ -169,7 +169,7 @@ def test_missing_files_come_back_and_nothing_else_changes(whole):
     assert (found.state, found.text) == (
         "problem",
         "missing: environment/bootstrap.lock, environment/build.lock, environment/course.lock "
-        "and 1 more",
+        "and 2 more",
     )
     subprocess.run(["bash", "-c", found.cure], check=True, capture_output=True)
     found = doctor.course_files(whole, os.environ)

@@ -5,8 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from course_tool import commands, installing, prepare
+
 FOLDER = Path(__file__).resolve().parents[2] / "environment"
-NAMES = ("bootstrap", "build", "course", "test", "hub")
+NAMES = ("bootstrap", "build", "course", "test", "hub", "kilted")
 
 
 def text_of(name):
@@ -53,6 +55,24 @@ def test_tests_run_on_the_versions_that_learners_get():
     assert different == set()
 
 
+def test_another_distribution_differs_in_nothing_but_ros():
+    """So what fails on it alone shows a difference between the distributions."""
+    jazzy, kilted = pins("test"), pins("kilted")
+    assert {version for (name, _), version in kilted.items() if name == "ros-rclpy"} == {"9.1.2"}
+    known = {name for name, _ in jazzy}
+    others = {(name, version) for (name, _), version in kilted.items() if "ros-" not in name}
+    assert len(others) > 50
+    assert {(name, version) for name, version in others if name in known} <= {
+        (name, version) for (name, _), version in jazzy.items()
+    }
+    assert {name for name, _ in others} <= known
+
+
+def test_what_is_locked_for_a_distribution_names_no_other():
+    for name, other in (("course", "kilted"), ("test", "kilted"), ("kilted", "jazzy")):
+        assert not [package for package, _ in pins(name) if other in package]
+
+
 def test_a_hub_leaves_the_versions_that_learners_have():
     """Its packages go into the same `.venv`."""
     learners, hub = pins("course"), pins("hub")
@@ -60,6 +80,36 @@ def test_a_hub_leaves_the_versions_that_learners_have():
     shared = {(name, version) for (name, _), version in hub.items() if name in known}
     assert len(shared) > 10
     assert shared <= {(name, version) for (name, _), version in learners.items()}
+
+
+def test_the_packages_of_ros_have_no_part_in_what_constrains_another_distribution(layout):
+    layout.lock("test").write_text(
+        "numpy==2.2.6 ; python_full_version < '3.11' \\\n    --hash=sha256:00\n"
+        "ros-rclpy==7.1.6 \\\n    --hash=sha256:00\n"
+    )
+    assert commands.pins_without_ros(layout) == "numpy==2.2.6 ; python_full_version < '3.11' \n"
+
+
+def test_every_lock_is_made_and_those_of_a_distribution_last(layout, monkeypatch):
+    """The versions of `test.lock` constrain them."""
+    made, constraints = [], {}
+
+    def install(command, environ, cwd):
+        name = command[-1].removesuffix(".lock")
+        made.append(name)
+        if "--constraint" in command:
+            file = cwd / command[command.index("--constraint") + 1]
+            constraints[name] = file.name if file.parent == cwd else file.read_text()
+
+    layout.lock("test").write_text("numpy==2.2.6 \\\nros-rclpy==7.1.6 \\\n")
+    monkeypatch.setattr(prepare, "ready", lambda layout, level: {})
+    monkeypatch.setattr(installing, "for_installers", lambda layout, environ: environ)
+    monkeypatch.setattr(installing, "install", install)
+    assert commands.lock(layout, ["--upgrade"]) == 0
+    assert sorted(made) == sorted(path.stem for path in FOLDER.glob("*.lock"))
+    assert made[-1] == "kilted"
+    course = "course.lock"
+    assert constraints == {"test": course, "hub": course, "kilted": "numpy==2.2.6 \n"}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from contextlib import nullcontext
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -92,6 +93,21 @@ def test_the_first_time_is_announced(made, work, capsys):
     made.lock("course").write_text("newer\n")
     prepare.ready(made, "course")
     assert "Something changed" in capsys.readouterr().out
+
+
+def test_another_distribution_has_an_environment_of_its_own(made, work, capsys):
+    prepare.ready(made, "test")
+    del work[:]
+    kilted = replace(made, ros="kilted")
+    kilted.python.parent.mkdir(parents=True)
+    kilted.python.symlink_to(made.python)
+    environ = prepare.ready(kilted, "kilted")
+    assert environ["VIRTUAL_ENV"] == str(made.root / ".venv-kilted")
+    assert work == ["check", "venv", "kilted", "listen"]
+    assert "Preparing .venv-kilted" in capsys.readouterr().out
+    made.lock("kilted").write_text("newer\n")
+    assert not prepare.is_satisfied(kilted, "kilted")
+    assert prepare.is_satisfied(made, "test")
 
 
 # What must hold before.

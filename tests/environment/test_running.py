@@ -2,6 +2,7 @@
 
 import os
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -96,6 +97,32 @@ def test_workspaces_of_the_course_stay(layout, robot):
     path = os.pathsep.join([own, robot, str(layout.venv)])
     clean = running.cleaned({"AMENT_PREFIX_PATH": path}, layout)
     assert clean.environ["AMENT_PREFIX_PATH"] == os.pathsep.join([own, str(layout.venv)])
+
+
+@pytest.mark.parametrize(("ros", "other"), [("kilted", "jazzy"), ("jazzy", "kilted")])
+def test_the_environment_of_another_distribution_is_another_ros(layout, ros, other):
+    """The tests on Kilted are started in a shell of the course, for one."""
+    other, layout = replace(layout, ros=other).venv, replace(layout, ros=ros)
+    index = other / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "rclpy").touch()
+    environ = {
+        "AMENT_PREFIX_PATH": str(other),
+        "LD_LIBRARY_PATH": f"{other}/lib:/usr/local/cuda/lib",
+        "PATH": f"{other}/bin:/usr/bin",
+        "ROS_DISTRO": "the other",
+        "FASTRTPS_DEFAULT_PROFILES_FILE": str(layout.root / "src" / "fastdds.xml"),
+        "FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml",
+    }
+    clean = running.cleaned(environ, layout)
+    assert clean.environ == {
+        "LD_LIBRARY_PATH": "/usr/local/cuda/lib",
+        "PATH": "/usr/bin",
+        "FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml",
+    }
+    assert clean.notes == (
+        f"Another ROS is sourced ({other}); here the course uses its own, in {layout.venv.name}.",
+    )
 
 
 def test_inside_the_venv_comes_first_once(layout):

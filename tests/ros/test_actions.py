@@ -209,6 +209,41 @@ def test_send_goal_in_a_cell_runs_virtual_time(ros, pair):
     assert ros.time == 2
 
 
+def test_a_result_is_kept_for_as_long_as_the_server_says(ros):
+    """A goal that ends on the second, as all do in virtual time, is forgotten on the second."""
+
+    class Keeper(Node):
+        def __init__(self):
+            super().__init__("keeper")
+            self.server = ActionServer(self, Fibonacci, "heat", self.heat, result_timeout=10)
+
+        def heat(self, goal):
+            goal.succeed()
+            return Fibonacci.Result()
+
+    class Asker(Node):
+        def __init__(self):
+            super().__init__("asker")
+            self.client = ActionClient(self, Fibonacci, "heat")
+            self.states = []
+            self.goal = None
+            self.create_timer(1.0, self.ask)
+
+        def ask(self):
+            if self.goal is None:
+                self.goal = self.client.send_goal_async(Fibonacci.Goal())
+            else:
+                asked = self.goal.result().get_result_async()
+                asked.add_done_callback(lambda future: self.states.append(future.result().status))
+
+    ros.add(Keeper)
+    asker = ros.add(Asker)
+    ros.run(14)
+    kept = asker.states.count(SUCCEEDED)
+    assert 9 <= kept <= 10
+    assert asker.states[kept:] == [GoalStatus.STATUS_UNKNOWN] * (13 - kept)
+
+
 def test_a_session_that_has_ended_offers_no_action():
     with Session() as ros:
         server, client = ros.add(Heater).server, ros.add(Sender).client

@@ -123,6 +123,28 @@ def test_memory_is_taken_from_no_profile_but_the_courses(environ, wanted):
     assert (PROFILE in environ) is ("FASTDDS_DEFAULT_PROFILES_FILE" not in environ)
 
 
+@pytest.mark.parametrize(
+    ("version", "name", "profile"),
+    [
+        ("7.1.5", "jazzy", PROFILE),
+        ("9.1.2", "kilted", "FASTDDS_DEFAULT_PROFILES_FILE"),
+        # One that nobody has tried is not given a name.
+        ("10.0.1", None, "FASTDDS_DEFAULT_PROFILES_FILE"),
+    ],
+)
+@pytest.mark.parametrize("place", ["installed", "sourced"])
+def test_a_distribution_gets_the_name_that_its_fast_dds_reads(
+    tmp_path, version, name, profile, place
+):
+    manifest = tmp_path / "share" / "rclpy" / "package.xml"
+    manifest.parent.mkdir(parents=True)
+    manifest.write_text(f"<package>\n  <name>rclpy</name>\n  <version>{version}</version>\n")
+    environ = {} if place == "installed" else {"AMENT_PREFIX_PATH": str(tmp_path)}
+    environment.apply(environ, str(tmp_path) if place == "installed" else PREFIX)
+    assert environ.get("ROS_DISTRO") == name
+    assert [each for each in environment.PROFILE_VARIABLES if each in environ] == [profile]
+
+
 def installed_in(folder):
     """The module as a wheel installs it, without a checkout around it."""
     alone = folder / "rosbeat" / "environment.py"

@@ -21,7 +21,7 @@ def drawn(docstring):
 
 def real():
     """From every error in the module to its parent."""
-    return {kind.__name__: kind.__base__.__name__ for kind in every_error()}
+    return {kind.__name__: kind.__mro__[1].__name__ for kind in every_error()}
 
 
 def every_error():

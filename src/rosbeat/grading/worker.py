@@ -30,6 +30,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from rosbeat.environment import PROFILE_VARIABLES
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading import system_calls
 from rosbeat.grading.jobs import FORGED, Evidence, Job, read_line, to_line
@@ -62,7 +63,7 @@ _TYPES = (
     "type_description_interfaces/srv/GetTypeDescription",
 )
 #: Variables that name a file of settings.
-_FILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "COLCON_DEFAULTS_FILE")
+_FILES = (*PROFILE_VARIABLES, "COLCON_DEFAULTS_FILE")
 #: Variables of the environment that ROS needs; nothing else of it reaches a sandbox.
 _KEPT = (
     *("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_PYTHON_CHECK_FIELDS", "LANG", "LC_ALL", "TZ"),

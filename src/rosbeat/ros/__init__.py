@@ -10,6 +10,8 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
 - Live mode: `live`, against the wall clock.
 - Parts of nodes: `launch` (starting a node), `context` (rclpy's default context), `qos_events`
   (deadlines and lifespans by the session's clock), `actions`.
+- The distribution of ROS: `distribution` (which rclpy is refused), `differences` (what differs
+  between the supported ones).
 - Observation: `recording` (taps, hooks, recorder), `exception_origin` (from an exception to a
   line), `graph` (nodes and endpoints, in other processes too), `listening` (their messages),
   `logs` (the log lines of a session's code).
@@ -18,3 +20,7 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
   processes).
 - Tests: `tester` (publishes, calls services and sends goals, for `rosbeat.testing`).
 """
+
+from rosbeat.ros.distribution import check
+
+check()

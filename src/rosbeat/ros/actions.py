@@ -24,6 +24,7 @@ from unique_identifier_msgs.msg import UUID
 
 from rosbeat.errors import SessionError
 from rosbeat.records import Endpoint
+from rosbeat.ros.differences import let_rclpy_warn
 from rosbeat.ros.exception_origin import asking
 from rosbeat.ros.graph import qos_of
 from rosbeat.ros.processes import NodeState, callback_name
@@ -97,6 +98,26 @@ class ActionEnd:
         server._execute_goal = execute
         server._rosbeat_end = self
         server.execute = partial(self._serve, server.execute)
+        server.add_to_wait_set = partial(self._look, server, server.add_to_wait_set)
+        server.take_data = partial(self._take, server, server.take_data)
+
+    @staticmethod
+    def _look(server: ActionServer, add_to_wait_set: Callable[[Any], None], wait_set: Any) -> None:  # noqa: ANN401 - rclpy's
+        """Let the time at which goals are forgotten come: rcl measures it by the node's clock."""
+        server._node.get_clock().now()
+        add_to_wait_set(wait_set)
+
+    @staticmethod
+    def _take(server: ActionServer, take: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """Take what is ready, and forget goals whose results were kept for long enough.
+
+        rcl forgets a goal when *more* time has passed (`rcl_action_expire_goals`). At the instant
+        itself, which takes no time on a robot, it would find nothing and look again, forever.
+        """
+        if not server._is_goal_expired:
+            return take()
+        with server._node.get_clock().a_moment_later():
+            return take()
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
         self._core.heard(self._state, self.kind, "serve", self.name)
@@ -227,6 +248,7 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
     def init(entity: Entity, *given: Any, **named: Any) -> None:  # noqa: ANN401 - passed on
         with asking(f"{type(entity).__name__}.__init__", *given, **named):
             original(entity, *given, **named)
+        let_rclpy_warn(entity._logger)
         options = order.bind(entity, *given, **named)
         options.apply_defaults()
         node = options.arguments["node"]

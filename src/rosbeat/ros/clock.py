@@ -64,13 +64,26 @@ class VirtualClock(Clock):
         """Move to the session's time."""
         time_ns = self.keeper.now
         if time_ns != self._shown:
-            self._shown = time_ns
-            # Without the detour through `Time` and the method of rclpy's clock.
-            handle = self.handle
-            with handle:
-                handle.set_ros_time_override(
-                    _POINT(time_ns + self._start_ns, ClockType.ROS_TIME)
-                )
+            self._show(time_ns)
+
+    @contextmanager
+    def a_moment_later(self) -> Iterator[None]:
+        """Show in this block that the least time there is has passed."""
+        if self.keeper.is_live:
+            yield
+            return
+        self._show(self.keeper.now + 1)
+        try:
+            yield
+        finally:
+            self.move()
+
+    def _show(self, time_ns: int) -> None:
+        self._shown = time_ns
+        # Without the detour through `Time` and the method of rclpy's clock.
+        handle = self.handle
+        with handle:
+            handle.set_ros_time_override(_POINT(time_ns + self._start_ns, ClockType.ROS_TIME))
 
     def now(self) -> Time:
         """Return the time; see rclpy."""

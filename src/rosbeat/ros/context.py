@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from functools import wraps
 from itertools import count
 from types import FrameType
@@ -20,6 +20,11 @@ from rclpy.context import Context
 
 from rosbeat.domains import SESSION_DOMAINS
 from rosbeat.ros.arguments import ros_arguments
+from rosbeat.ros.differences import (
+    FORGIVES_SHUTDOWN_AFTER_SIGNAL,
+    INIT_IS_FOR_WITH,
+    SHUTDOWN_DESTROYS_NODES,
+)
 from rosbeat.ros.errors import note
 from rosbeat.ros.logs import set_levels
 from rosbeat.ros.recording import in_kernel
@@ -174,6 +179,8 @@ class ProgramContext(Context):
         self.publishes_logs = True
         self.session_core, self.program = core, program
         self.home: Context = core.context
+        #: What the program itself has shut down, and no signal.
+        self._shut_down: object = None
 
     def init(self, args: Any = None, **options: Any) -> None:  # noqa: ANN401 - rclpy's own signature
         """Initialize the context: the arguments hold for all of the program's nodes."""
@@ -185,13 +192,26 @@ class ProgramContext(Context):
 
     def shutdown(self) -> None:
         """Shut down, and let a `spin` of the program return."""
-        super().shutdown()
+        by_signal = self.handle is not None and not self.ok() and self._shut_down is not self.handle
+        self._destroy_nodes()
+        if not (by_signal and FORGIVES_SHUTDOWN_AFTER_SIGNAL):
+            super().shutdown()
+        self._shut_down = self.handle
         self.program.shut_down()
 
     def try_shutdown(self) -> None:
         """Shut down if that was not done yet, and let a `spin` of the program return."""
+        if self.ok():
+            self._destroy_nodes()
+            self._shut_down = self.handle
         super().try_shutdown()
         self.program.shut_down()
+
+    def _destroy_nodes(self) -> None:
+        """Destroy the nodes of the program, as rclpy does if they are in this very context."""
+        if SHUTDOWN_DESTROYS_NODES and self.handle is not None:
+            for node in self.program.nodes:
+                node.destroy_node()
 
 
 def _open_context(context: Context | None) -> Context | None:
@@ -252,7 +272,7 @@ def install_learner_calls() -> None:
     The original is written for a process that does nothing else: in a kernel it would install
     signal handlers with which Interrupt shuts down *every* context.
     """
-    original: Callable[..., None] = rclpy.init
+    original: Callable[..., Any] = rclpy.init
     if hasattr(original, "__wrapped__"):
         return
     if in_kernel() and threading.current_thread() is threading.main_thread():
@@ -265,19 +285,20 @@ def install_learner_calls() -> None:
         args: list[str] | None = None,
         context: Context | None = None,
         **options: Any,  # noqa: ANN401 - rclpy's own
-    ) -> None:
+    ) -> Any:  # noqa: ANN401 - None in Jazzy; in Kilted what `with` shuts down at the end of its block
         target = context or rclpy.get_default_context()
         if isinstance(target, SessionContext | ProgramContext):
-            target.init(args, domain_id=options.get("domain_id"))
+            options["signal_handler_options"] = rclpy.signals.SignalHandlerOptions.NO
+            manager = original(args=args, context=target, **options)
             if isinstance(target, ProgramContext):
                 target.program.install_handlers()
-            return
+            return manager
         if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)
             if context is None and target.ok():
                 note("ROS is already running in this kernel, so rclpy.init() changes nothing.")
-                return
+                return nullcontext() if INIT_IS_FOR_WITH else None
             args = [] if args is None else args  # sys.argv is the kernel's, not the node's
-        original(args=args, context=context, **options)
+        return original(args=args, context=context, **options)
 
     rclpy.init = init

@@ -38,6 +38,13 @@ from weakref import WeakValueDictionary
 from rosbeat.errors import EndlessChainError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
+from rosbeat.ros.differences import (
+    HAS_OLDEST_TASK_FIRST,
+    KEEPS_TASKS_IN_LIST,
+    call_timer,
+    forget_executing,
+    tasks_of,
+)
 from rosbeat.ros.errors import never_made
 from rosbeat.ros.isolation import DeadlinePassed
 from rosbeat.ros.processes import Entry, NodeState, Process
@@ -538,8 +545,7 @@ class VirtualTime(Switchboard):
         if process.is_direct or process.is_over or process.spinner is not None or executor is None:
             return
         executor._cb_iter = None  # a round that an interrupt has left
-        # rclpy would take what was interrupted for running, for ever.
-        executor._tasks[:] = [parts for parts in executor._tasks if not parts[0].executing()]
+        forget_executing(executor)
         call = process.spinner = Call(process)
         call.label = self._recorder.label("", "thread", "spin", "")
 
@@ -705,7 +711,9 @@ class VirtualTime(Switchboard):
 
     def task_made(self, process: Process) -> None:
         """Note that a plain process has a task to run when what is running has ended."""
-        if process.is_direct:
+        if not KEEPS_TASKS_IN_LIST:
+            self.hand_over(process)
+        elif process.is_direct:
             process.has_tasks = True
             self._catch_up(process)
 
@@ -779,13 +787,13 @@ class VirtualTime(Switchboard):
                 continue
             executor = process.executor
             assert executor is not None
-            waiting = [parts[0] for parts in executor._tasks if not parts[0].done()]
             executor._tasks[:] = [parts for parts in executor._tasks if not parts[0].done()]
+            waiting = tasks_of(executor)
             if not waiting:
                 process.has_tasks = False
                 self._catch_up(process)
                 continue
-            task = waiting[-1]  # the newest first, as in `_wait_for_ready_callbacks`
+            task = waiting[0] if HAS_OLDEST_TASK_FIRST else waiting[-1]
             tasks.appendleft(process)
             self._chain.turn(lambda: [state.name for state in process.states])
             self._run_task(process, task)
@@ -855,14 +863,13 @@ class VirtualTime(Switchboard):
         try:
             with handle:
                 due = state.spinning and handle.is_timer_ready()
-                if due:
-                    handle.call_timer()
+                callback = call_timer(entry.entity) if due else None
         except InvalidHandle:
             return  # destroyed
         self.schedule.add_timer(entry, self.now)  # before the callback, which may wait for longer
-        if due:
+        if callback is not None:
             self._chain.timer_fires(state.name, entry.label.name)
-            self._call(entry, entry.entity.callback)
+            self._call(entry, callback)
 
     def _take(self, entry: Entry) -> bool:
         """Take one thing and run the callback; return whether there was something."""

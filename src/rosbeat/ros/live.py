@@ -22,6 +22,7 @@ from rclpy.executors import (
 from rclpy.node import Node
 from rclpy.task import Future, Task
 
+from rosbeat.ros.differences import call_soon, tasks_of
 from rosbeat.ros.processes import Entry
 from rosbeat.ros.taking import take_message
 
@@ -79,7 +80,7 @@ class LiveExecutor(SingleThreadedExecutor):
 
         if entry.kind == "subscription" and entry.handle is not entry.entity.handle:
             for _ in range(len(entry.handle)):
-                self._make_handler(entry.entity, entry.state.node, take)
+                call_soon(self, self._make_handler(entry.entity, entry.state.node, take))
 
     def is_this_thread(self) -> bool:
         """Return whether the caller is a callback of this executor."""
@@ -104,7 +105,7 @@ class LiveExecutor(SingleThreadedExecutor):
         if self._thread.is_alive():
             self._break_off()
             self._thread.join(_STOP_TIMEOUT)
-        for task, _, _ in self._tasks:
+        for task in tasks_of(self):
             with suppress(ValueError):  # it does not wait but runs, in a call that nobody can end
                 task.cancel()  # a coroutine that still waits; this frees its callback group
         self.shutdown()

@@ -32,6 +32,7 @@ from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnap
 from rosbeat.ros.actions import action_of
 from rosbeat.ros.clock import START, VirtualClock, VirtualNames, make_clock
 from rosbeat.ros.context import SessionContext
+from rosbeat.ros.differences import RAISES_WHEN_CALL_TIMES_OUT, tasks_of
 from rosbeat.ros.engine import LONGEST_WAIT, VirtualTime
 from rosbeat.ros.errors import (
     INSTEAD_OF_WAITING,
@@ -886,6 +887,8 @@ class SessionCore:
         self.wait("client.call", future.done, timeout_sec)
         if not future.done():
             client.remove_pending_request(future)
+            if timeout_sec is not None and RAISES_WHEN_CALL_TIMES_OUT:
+                raise TimeoutError
             if timeout_sec is None:
                 raise SessionError(
                     f"No node has responded to the call of {client.service_name}.",
@@ -965,7 +968,7 @@ def _timer_clocks(state: NodeState) -> Iterator[VirtualClock]:
 
 def _end_coroutines(executor: Executor, state: NodeState | None = None) -> None:
     """Close the coroutines that wait, of one node or all: their `finally` blocks run now."""
-    for task, _, _ in list(executor._tasks):
+    for task in tasks_of(executor):
         call: Call | None = task.__dict__.get("_rosbeat_call")
         if state is not None and (call is None or call.state is not state):
             continue
