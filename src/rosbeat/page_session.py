@@ -70,6 +70,7 @@ class Session(session.Session):
 
     _console_class = PageConsole
 
+    @called_as("Session(seed=7)")
     def __init__(
         self, *, seed: int = 0, domain_id: int | None = None, start_time: int = START
     ) -> None:

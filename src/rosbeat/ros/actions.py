@@ -23,7 +23,7 @@ from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
 from rosbeat.errors import SessionError
-from rosbeat.records import Endpoint
+from rosbeat.records import NANOSECONDS, Endpoint
 from rosbeat.ros.differences import let_rclpy_warn
 from rosbeat.ros.exception_origin import asking
 from rosbeat.ros.graph import qos_of
@@ -104,7 +104,7 @@ class ActionEnd:
     @staticmethod
     def _look(server: ActionServer, add_to_wait_set: Callable[[Any], None], wait_set: Any) -> None:  # noqa: ANN401 - rclpy's
         """Let the time at which goals are forgotten come: rcl measures it by the node's clock."""
-        server._node.get_clock().now()
+        server._node.get_clock().move()
         add_to_wait_set(wait_set)
 
     @staticmethod
@@ -141,6 +141,10 @@ class ActionEnd:
     def published(self, topic: str) -> None:
         """Note that the server has published on one of the action's topics."""
         self._core.sent("subscription", f"{self.name}/_action/{topic}", self._state)
+        kept = self._options.get("result_timeout")
+        if topic == "status" and isinstance(kept, int | float) and self._core.live is None:
+            # A goal that has just ended is forgotten then.
+            self._core.virtual.look_at(self._core.now() + round(kept * NANOSECONDS))
 
     # A client.
 

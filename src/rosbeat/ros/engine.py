@@ -21,6 +21,7 @@ from _thread import get_ident
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from inspect import iscoroutine, iscoroutinefunction
 from typing import TYPE_CHECKING, Any, cast
@@ -73,6 +74,14 @@ _GIVES_WAY = ("turn", "poll")
 _IDLE = ("spin", *_GIVES_WAY)
 #: What ends more than the callback in which it is raised.
 NOT_OF_CALLBACKS = (KeyboardInterrupt, GreenletExit, DeadlinePassed)
+
+
+@dataclass(eq=False, slots=True)
+class _Look:
+    """Be due when executors have to look at their waitables."""
+
+    order: int
+    due_ns: int | None = None
 
 
 class VirtualTime(Switchboard):
@@ -212,6 +221,10 @@ class VirtualTime(Switchboard):
         for wait in self._set_waits:
             if wait.has_waitables:
                 self.wake(wait)
+
+    def look_at(self, time_ns: int) -> None:
+        """Let executors look at their waitables at a time, in nanoseconds of virtual time."""
+        self.schedule.add(_Look(self.next_number()), time_ns)
 
     def entities_changed(self) -> None:
         """Note that entities were made or destroyed: their peers may have events to tell."""
@@ -643,8 +656,11 @@ class VirtualTime(Switchboard):
         if isinstance(item, Wait):
             self._woken.append(item)
             return
+        if isinstance(item, _Look):
+            self.hidden_event()
+            return
         entry = cast(Entry, item)
-        if self.schedule.next_due(self.now) != self.now or isinstance(self.schedule.first(), Wait):
+        if self.schedule.next_due(self.now) != self.now or not self._is_timer_next():
             self._fire(entry)
             return
         self._due.append(entry)
@@ -654,9 +670,7 @@ class VirtualTime(Switchboard):
     def _fire_due(self) -> None:
         """Fire the first of the timers of this instant, in the order in which they were set."""
         known = len(self._due)
-        while self.schedule.next_due(self.now) == self.now and not isinstance(
-            self.schedule.first(), Wait
-        ):
+        while self.schedule.next_due(self.now) == self.now and self._is_timer_next():
             timer = cast(Entry, self.schedule.pop())
             self._due.append(timer)
             timer.state.process.due += 1
@@ -668,6 +682,9 @@ class VirtualTime(Switchboard):
         self._fire(entry)
         if process.pending and not process.due:
             self._catch_up(process)
+
+    def _is_timer_next(self) -> bool:
+        return not isinstance(self.schedule.first(), Wait | _Look)
 
     def _miss(self, entry: Entry) -> None:
         """Let the process of a QoS deadline tell its node that it was missed."""
@@ -867,7 +884,7 @@ class VirtualTime(Switchboard):
         except InvalidHandle:
             return  # destroyed
         self.schedule.add_timer(entry, self.now)  # before the callback, which may wait for longer
-        if callback is not None:
+        if due:
             self._chain.timer_fires(state.name, entry.label.name)
             self._call(entry, callback)
 

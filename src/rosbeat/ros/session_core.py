@@ -669,6 +669,8 @@ class SessionCore:
                 "while it sleeps or waits. Until it returns, no other callback of its callback "
                 "group runs."
             )
+            # It holds its group, which only rclpy's own executor asks.
+            self.virtual.hand_over(state.process)
         self.virtual.now, self.live = self.now(), None
         self._change_executor(None)
         self.virtual.look_anew()
