@@ -13,11 +13,22 @@ from operator import index
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+from weakref import ReferenceType, ref
 
-import rclpy.clock
+import rclpy.utilities
 from rclpy import wait_for_message as message_waiting
-from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.clock import (
+    Clock,
+    ClockChange,
+    ClockType,
+    JumpHandle,
+    JumpThreshold,
+    ROSClock,
+    TimeJump,
+)
 from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.exceptions import NotInitializedException
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -55,21 +66,27 @@ class VirtualClock(Clock):
     that another node has already passed.
 
     To rcl it is a clock of ROS time, the only type that can be set.
+
+    Attributes:
+        keeper: The engine whose time it shows.
+        is_driven: Whether a program or `/clock` sets it instead, as with `use_sim_time`.
     """
 
     keeper: VirtualTime
+    is_driven: bool
     _shown: int
+    _jumps: list[ReferenceType[VirtualJump]]
 
     def move(self) -> None:
         """Move to the session's time."""
         time_ns = self.keeper.now
-        if time_ns != self._shown:
+        if time_ns != self._shown and not self.is_driven:
             self._show(time_ns)
 
     @contextmanager
     def a_moment_later(self) -> Iterator[None]:
         """Show in this block that the least time there is has passed."""
-        if self.keeper.is_live:
+        if self.keeper.is_live or self.is_driven:
             yield
             return
         self._show(self.keeper.now + 1)
@@ -87,17 +104,50 @@ class VirtualClock(Clock):
 
     def now(self) -> Time:
         """Return the time; see rclpy."""
-        if self.keeper.is_live:
-            return self._live_now()
-        return Time(nanoseconds=self.keeper.now + self._start_ns, clock_type=self._clock_type)
+        if not (self.keeper.is_live or self.is_driven):
+            return Time(nanoseconds=self.keeper.now + self._start_ns, clock_type=self._clock_type)
+        handle = self.handle
+        with handle:
+            now = handle.get_now()
+        return Time(nanoseconds=now.nanoseconds, clock_type=self._clock_type)
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Sleep until a time of this clock; see rclpy. `sleep_for` calls this, too."""
+        home = context or rclpy.utilities.get_default_context()
+        if not home.ok():
+            raise NotInitializedException
+        if until.clock_type != self._clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
         if self.keeper.is_live:
             return bool(super().sleep_until(until, context))
-        _check_sleep(self, until, context)
-        self.keeper.sleep_until(until.nanoseconds - self._start_ns)
-        return True
+        was_driven = self.is_driven
+
+        def is_broken_off() -> bool:
+            return self.is_driven != was_driven or not home.ok()
+
+        def is_over() -> bool:
+            return is_broken_off() or (was_driven and self.now() >= until)
+
+        end = None if was_driven else until.nanoseconds - self._start_ns
+        if self.now() < until:
+            self.keeper.block("sleep", end, is_over)
+        return not is_broken_off() and self.now() >= until
+
+    def create_jump_callback(self, threshold: Any, **callbacks: Any) -> JumpHandle:  # noqa: ANN401 - rclpy's own
+        """Create a handler for clock time jumps; see rclpy. Virtual time flows and never jumps."""
+        post = callbacks.get("post_callback")
+
+        def told(jump: dict[str, Any]) -> None:
+            post(TimeJump(jump["clock_change"], Duration(nanoseconds=jump["delta"])))
+
+        if callable(post):
+            callbacks["post_callback"] = told
+        return VirtualJump(
+            clock=self,
+            threshold=threshold,
+            pre_callback=callbacks.get("pre_callback"),
+            post_callback=callbacks.get("post_callback"),
+        )
 
     def follow_session(self) -> None:
         """Show virtual time from now on."""
@@ -119,34 +169,101 @@ class VirtualClock(Clock):
         with handle:
             handle.set_ros_time_override_is_enabled(active)
 
-    def _live_now(self) -> Time:
-        handle = self.handle
-        with handle:
-            now = handle.get_now()
-        return Time(nanoseconds=now.nanoseconds, clock_type=self._clock_type)
+    def _jump(self, change: ClockChange, delta_ns: int, do: Callable[[], None]) -> None:
+        """Do something that makes the clock jump, and tell those who asked for it."""
+        jumps = [jump for jump in (reference() for reference in self._jumps) if jump is not None]
+        told = [jump for jump in jumps if jump.is_meant(change, delta_ns)]
+        for jump in told:
+            if jump._pre_callback is not None:
+                jump._pre_callback()
+        do()
+        for jump in told:
+            if jump._post_callback is not None:
+                jump._post_callback({"clock_change": change, "delta": delta_ns})
+        self.keeper.clock_set()
 
 
-def _check_sleep(clock: Clock, until: Time, context: Context | None) -> None:
-    """Refuse what rclpy refuses; see `Clock.sleep_until`."""
-    if until.clock_type != clock.clock_type:
-        raise ValueError("until's clock type does not match this clock's type")
-    home = context or rclpy.utilities.get_default_context()
-    if not home.ok():
-        raise rclpy.exceptions.NotInitializedException()
+class VirtualJump(JumpHandle):
+    """Handle jumps of a clock that shows virtual time, without rcl."""
+
+    def __init__(
+        self,
+        *,
+        clock: VirtualClock,
+        threshold: JumpThreshold,
+        pre_callback: Callable[[], None] | None,
+        post_callback: Callable[[Any], None] | None,
+    ) -> None:
+        for name, callback in (("pre_callback", pre_callback), ("post_callback", post_callback)):
+            if callback is not None and not callable(callback):
+                raise ValueError(f"{name} must be callable if given")
+        if pre_callback is None and post_callback is None:
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        self._clock: VirtualClock | None = clock
+        self._pre_callback, self._post_callback = pre_callback, post_callback
+        self._threshold = threshold
+        clock._jumps.append(ref(self))
+
+    def is_meant(self, change: ClockChange, delta_ns: int) -> bool:
+        """Return whether a jump passes the threshold (rcl, `clock.c`)."""
+        if self._clock is None:
+            return False
+        if change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+            return bool(self._threshold.on_clock_change)
+        forward, backward = self._threshold.min_forward, self._threshold.min_backward
+        if delta_ns > 0:
+            return forward is not None and delta_ns >= forward.nanoseconds
+        return backward is not None and delta_ns < 0 and delta_ns <= backward.nanoseconds
+
+    def unregister(self) -> None:
+        """Handle no further jumps."""
+        self._clock = None
 
 
 class SessionClock(VirtualClock, ROSClock):
-    """Give a node a ROS clock that only its session moves.
+    """Give a node a ROS clock that its session moves, unless the node uses simulated time.
 
-    rclpy's time source would set a node's clock from the parameter `use_sim_time` and from
-    `/clock` messages; both calls are accepted and change nothing.
+    With `use_sim_time`, rclpy's time source activates ROS time and sets it from `/clock`. Until a
+    first message comes there, such a clock stands still, as on a robot.
     """
 
+    _set_to: Time | None
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Return whether a program or `/clock` sets the clock."""
+        return self.is_driven
+
     def set_ros_time_override(self, time: Time) -> None:
-        """Accept rclpy's call and keep the session's own time."""
+        """Set the time that the clock shows while ROS time is active."""
+        if not isinstance(time, Time):
+            raise TypeError(
+                f"Time must be specified as rclpy.time.Time. Received type: {type(time)}"
+            )
+        self._set_to = time
+        if self.is_driven:
+            delta = time.nanoseconds - self.now().nanoseconds
+            self._jump(ClockChange.ROS_TIME_NO_CHANGE, delta, self._show_what_was_set)
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Accept rclpy's call; `follow_session` and `follow_wall` decide."""
+        if enabled == self.is_driven or self.keeper.is_live:
+            return
+        change = "ROS_TIME_ACTIVATED" if enabled else "ROS_TIME_DEACTIVATED"
+        self._jump(getattr(ClockChange, change), 0, lambda: self._drive(enabled))
+
+    def _drive(self, enabled: bool) -> None:
+        self.is_driven = enabled
+        if enabled:
+            self._show_what_was_set()
+        else:
+            self._shown = -1
+            self.move()
+
+    def _show_what_was_set(self) -> None:
+        time_ns = self._set_to.nanoseconds if self._set_to is not None else 0
+        handle = self.handle
+        with handle:
+            handle.set_ros_time_override(_POINT(time_ns, ClockType.ROS_TIME))
 
 
 def make_clock(keeper: VirtualTime, clock_type: ClockType = ClockType.ROS_TIME) -> VirtualClock:
@@ -157,7 +274,9 @@ def make_clock(keeper: VirtualTime, clock_type: ClockType = ClockType.ROS_TIME) 
     clock.__class__ = SessionClock if ros else VirtualClock
     made: VirtualClock = clock
     made._clock_type = clock_type
-    made.keeper = keeper
+    made.keeper, made.is_driven, made._jumps = keeper, False, []
+    if ros:
+        clock._set_to = None
     made.follow_session()
     if keeper.is_live:
         made.follow_wall()

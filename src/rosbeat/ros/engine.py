@@ -226,6 +226,11 @@ class VirtualTime(Switchboard):
         """Let executors look at their waitables at a time, in nanoseconds of virtual time."""
         self.schedule.add(_Look(self.next_number()), time_ns)
 
+    def clock_set(self) -> None:
+        """Note that a program has set a clock, on which timers may be due now."""
+        for wait in self._set_waits:
+            self.wake(wait)
+
     def entities_changed(self) -> None:
         """Note that entities were made or destroyed: their peers may have events to tell."""
         self._entities_changed = True

@@ -143,14 +143,15 @@ class Entry:
 
     def remaining_ns(self) -> int | None:
         """Return the nanoseconds until a timer is due; None while it is canceled or not spun."""
-        handle = self.handle
-        self.entity.clock.move()
+        handle, clock = self.handle, self.entity.clock
+        clock.move()
         try:
             with handle:
                 if not self.state.spinning or handle.is_timer_canceled():
                     return None
                 remaining: int = handle.time_until_next_call()
-                return remaining
+                # Nobody knows when a clock that a program sets will show that time.
+                return None if clock.is_driven and remaining > 0 else remaining
         except InvalidHandle:
             return None  # destroyed
 

@@ -124,7 +124,10 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclp
             with handle:
                 if handle.is_timer_canceled():
                     continue
-                due = now + max(0, handle.time_until_next_call())
+                remaining = max(0, handle.time_until_next_call())
+            if remaining and timer is not None and getattr(timer.clock, "is_driven", False):
+                continue  # nobody knows when the program will set its clock to that time
+            due = now + remaining
             if nearest is None or due < nearest:
                 entry = engine.entry_of(timer)
                 nearest, order = due, entry.order if entry is not None else 0
