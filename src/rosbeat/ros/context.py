@@ -28,6 +28,7 @@ from rosbeat.ros.differences import (
 from rosbeat.ros.errors import note
 from rosbeat.ros.logs import set_levels
 from rosbeat.ros.recording import in_kernel
+from rosbeat.ros.waits import board_here
 
 if TYPE_CHECKING:
     from rosbeat.ros.session_core import SessionCore
@@ -156,14 +157,13 @@ class SessionContext(Context):
 
 
 class ProgramContext(Context):
-    """Act as the default context of a program that a session runs; see `simulated_program`.
+    """Act as a context of a program that a session runs; see `simulated_program`.
 
-    It is a real context, so that `init`, `ok` and `shutdown` behave as they do in a separate
+    It is the program's default one, or one that it makes itself with `Context()`. It is a real context, so that `init`, `ok` and `shutdown` behave as they do in a separate
     process. The program's nodes are created in the session's context.
 
     Args:
-        core: The state of the session.
-        program: The program, which is notified of a shutdown.
+        program: The program, which is notified of a shutdown; by default the one that runs.
 
     Attributes:
         session_core: The state of the session.
@@ -173,12 +173,19 @@ class ProgramContext(Context):
         publishes_logs: Whether its nodes have publishers on `/rosout`.
     """
 
-    def __init__(self, core: SessionCore, program: SimulatedProgram) -> None:
+    def __init__(self, program: SimulatedProgram | None = None) -> None:
         super().__init__()
+        if program is None:
+            board = board_here()
+            assert board is not None
+            assert board.current is not None
+            program = board.current.process.program
+            assert program is not None
         self.ros_arguments: list[str] = []
         self.publishes_logs = True
-        self.session_core, self.program = core, program
-        self.home: Context = core.context
+        self.session_core, self.program = program.core, program
+        self.home: Context = program.core.context
+        program.contexts.add(self)
         #: What the program itself has shut down, and no signal.
         self._shut_down: object = None
 
@@ -197,7 +204,7 @@ class ProgramContext(Context):
         if not (by_signal and FORGIVES_SHUTDOWN_AFTER_SIGNAL):
             super().shutdown()
         self._shut_down = self.handle
-        self.program.shut_down()
+        self.program.shut_down(self)
 
     def try_shutdown(self) -> None:
         """Shut down if that was not done yet, and let a `spin` of the program return."""
@@ -205,13 +212,26 @@ class ProgramContext(Context):
             self._destroy_nodes()
             self._shut_down = self.handle
         super().try_shutdown()
-        self.program.shut_down()
+        self.program.shut_down(self)
 
     def _destroy_nodes(self) -> None:
         """Destroy the nodes of the program, as rclpy does if they are in this very context."""
         if SHUTDOWN_DESTROYS_NODES and self.handle is not None:
             for node in self.program.nodes:
-                node.destroy_node()
+                if node.context is self:
+                    node.destroy_node()
+
+
+def _new_context(kind: type[Context], *_: object, **__: object) -> Context:
+    """Make a context; one that code of a program makes is the program's."""
+    board = board_here()
+    call = board.current if board is not None else None
+    own = kind is Context and call is not None and call.process.program is not None
+    made: Context = object.__new__(ProgramContext if own else kind)
+    return made
+
+
+Context.__new__ = staticmethod(_new_context)  # at import, so exactly once in a process
 
 
 def _open_context(context: Context | None) -> Context | None:
@@ -290,7 +310,7 @@ def install_learner_calls() -> None:
         if isinstance(target, SessionContext | ProgramContext):
             options["signal_handler_options"] = rclpy.signals.SignalHandlerOptions.NO
             manager = original(args=args, context=target, **options)
-            if isinstance(target, ProgramContext):
+            if isinstance(target, ProgramContext) and target is rclpy.get_default_context():
                 target.program.install_handlers()
             return manager
         if in_kernel():

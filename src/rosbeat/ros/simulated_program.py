@@ -23,6 +23,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
+from weakref import WeakSet
 
 import rclpy.utilities
 from greenlet import GreenletExit
@@ -58,6 +59,8 @@ class SimulatedProgram:
         name: The file's name without `.py`, or the function's module and name.
         returncode: The exit code; negative for a signal that ended it; None while it runs.
         stderr: The traceback with which it ended; empty if there was none.
+        core: The state of the session.
+        contexts: The contexts that it has made.
         argv: Its command line, as in `sys.argv`.
         interrupt: The exception that a simulated Ctrl+C raises, to distinguish it from a real one.
         failure: The exception that left `main`, and its record; None if there was none.
@@ -71,7 +74,8 @@ class SimulatedProgram:
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None
         self.stderr = ""
-        self._core = core
+        self.core = core
+        self.contexts: WeakSet[Context] = WeakSet()
         self._process = Process(program=self)
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
@@ -118,15 +122,15 @@ class SimulatedProgram:
                 "A session simulates Ctrl+C, the system's request to terminate, and `kill -9`.",
                 "Use `signal.SIGINT`, `signal.SIGTERM` or `signal.SIGKILL`.",
             )
-        self._core.refuse_in_callback("send_signal")
+        self.core.refuse_in_callback("send_signal")
         if self.returncode is not None:
             return
         if number == signal.SIGKILL:
             self._end(-number)
             return
-        with self._core.running():
+        with self.core.running():
             self._deliver(signal.Signals(number))
-            self._core.virtual.run_until(self._core.virtual.now)
+            self.core.virtual.run_until(self.core.virtual.now)
 
     def terminate(self) -> None:
         """Send SIGTERM."""
@@ -141,7 +145,7 @@ class SimulatedProgram:
 
     def start(self) -> None:
         """Run it until it waits for the first time."""
-        virtual = self._core.virtual
+        virtual = self.core.virtual
         self._main = Call(self._process)
         virtual.start_greenlet(self._main, self._run)
         virtual.run_until(virtual.now)
@@ -179,11 +183,12 @@ class SimulatedProgram:
         )
         sys.path[:] = path
 
-    def shut_down(self) -> None:
-        """Let its publishers fail from now on: its context was shut down."""
+    def shut_down(self, context: Context) -> None:
+        """Let the publishers of a context that was shut down fail from now on."""
         for state in self._process.states:
-            for tap in state.taps:
-                tap.close()
+            if state.node.context is context:
+                for tap in state.taps:
+                    tap.close()
 
     def install_handlers(self) -> None:
         """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
@@ -192,7 +197,7 @@ class SimulatedProgram:
     # How it works.
 
     def _new_context(self) -> ProgramContext:
-        return ProgramContext(self._core, self)
+        return ProgramContext(self)
 
     def _run(self) -> None:
         error: BaseException | None = None
@@ -204,8 +209,8 @@ class SimulatedProgram:
         while self._depth:  # what it printed and drew is its own; what follows is the session's
             self.leave()
         if isinstance(error, GreenletExit):  # it was killed, or its session was closed
-            if self._context is not None:
-                Context.try_shutdown(self._context)
+            for context in list(self.contexts):
+                Context.try_shutdown(context)
             if self.returncode is None:  # else a signal has ended it, and has said so
                 self.returncode = -signal.SIGKILL
             return
@@ -260,11 +265,11 @@ class SimulatedProgram:
         """Do what the signal handlers of rclpy and of Python do."""
         context = self._context
         caught = self._has_handlers and context is not None and context.ok()
-        if caught and context is not None:
+        for running in [context for context in self.contexts if caught and context.ok()]:
             # As in C++: nobody is told but the executors, which wait for this, too.
-            with context.handle:
-                context.handle.shutdown()
-            self.shut_down()
+            with running.handle:
+                running.handle.shutdown()
+            self.shut_down(running)
         if number == signal.SIGINT:
             self.interrupt = KeyboardInterrupt()
             self._raise(self.interrupt)
@@ -273,13 +278,13 @@ class SimulatedProgram:
             return
         for call in self._process.calls:
             if call.idle and call.wait is not None and call.wait.reason == "spin":
-                self._core.virtual.wake(call.wait)
+                self.core.virtual.wake(call.wait)
 
     def _raise(self, error: BaseException) -> None:
         """Raise an exception where the main thread of the program is."""
         waits = [call for call in self._process.calls if call.wait is not None and not call.ident]
         if waits:
-            self._core.virtual.end_wait(waits[-1], error)
+            self.core.virtual.end_wait(waits[-1], error)
 
     def _finish(self, error: BaseException | None) -> None:
         code = 0
@@ -291,8 +296,8 @@ class SimulatedProgram:
         elif error is not None:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
-            self.failure = fault_of(error, self._core.now(), self.name, "main"), error
-            self._core.add_fault(self.failure[0])
+            self.failure = fault_of(error, self.core.now(), self.name, "main"), error
+            self.core.add_fault(self.failure[0])
         if self.stderr:
             print(self.stderr, end="", file=sys.stderr)
         self._end(code)
@@ -301,15 +306,15 @@ class SimulatedProgram:
         """End the process: its callbacks, its threads, its nodes and its context."""
         self.returncode = code
         self._process.is_over = True
-        virtual = self._core.virtual
+        virtual = self.core.virtual
         for call in list(self._process.calls):
             if call is not virtual.current:
                 virtual.break_off(call)
         for state in list(self._process.states):
-            self._core.destroy(state)
-        if self._context is not None:
-            Context.try_shutdown(self._context)
-        self._core.console.program_ended(self)
+            self.core.destroy(state)
+        for context in list(self.contexts):
+            Context.try_shutdown(context)
+        self.core.console.program_ended(self)
 
 
 def _keep_handler(number: int, handler: object) -> object:
