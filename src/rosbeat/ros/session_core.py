@@ -385,7 +385,7 @@ class SessionCore:
             return
         state.spinning, state.ended = False, True
         self.virtual.forget(state)
-        if node.executor is not None:
+        if isinstance(node.executor, Executor):
             _end_coroutines(node.executor, state)
         for entry in state.entries:
             self._entries.pop(entry.entity, None)
