@@ -141,7 +141,7 @@ class VirtualTime(Switchboard):
         now = [
             WaitRecord(call.wait.began_ns, self.now, call.node, call.name, call.wait.reason)
             for call in self.suspended
-            if call.wait and not call.idle and call.wait.began_ns < self.now
+            if call.wait and call.wait.began_ns < self.now and _is_told(call)
         ]
         return tuple(sorted([*self._waits, *now], key=lambda record: record.time_ns))
 
@@ -436,7 +436,7 @@ class VirtualTime(Switchboard):
             process.refresh()
 
     def _call_resumed(self, call: Call, wait: Wait) -> None:
-        if self.now > wait.began_ns and not call.idle and wait.reason not in _IDLE:
+        if self.now > wait.began_ns and wait.reason not in _IDLE and _is_told(call):
             self._waits.append(
                 WaitRecord(wait.began_ns, self.now, call.node, call.name, wait.reason)
             )
@@ -528,7 +528,7 @@ class VirtualTime(Switchboard):
         is_plain_process = (
             not isinstance(executor, MultiThreadedExecutor)
             and not process.actions
-            and not any(_has_own_waitables(state) for state in process.states)
+            and all(map(_is_plain_node, process.states))
             and all(map(is_plain, entries))
         )
         if is_plain_process and not process.is_handed_over:
@@ -576,7 +576,7 @@ class VirtualTime(Switchboard):
                 raise
             except BaseException as error:
                 failure, process.failure = process.failure, None
-                state, name = None, "a task"
+                state, name = None, "spin"  # what no callback has raised
                 if failure is not None and failure[0] is error:
                     state, name = failure[1].state, failure[1].name
                 self._core.callback_raised(state or process.states[0], name, error)
@@ -945,16 +945,28 @@ class VirtualTime(Switchboard):
         self._core.callback_raised(call.state, name, error)
 
 
+def _is_told(call: Call) -> bool:
+    """Return whether a wait of a call holds something up: a callback, or a program."""
+    return not call.idle and (call.label is None or call.label.kind != "thread")
+
+
 def is_plain(entry: Entry) -> bool:
     """Return whether the engine may take the work of an entity directly."""
     callback = getattr(entry.entity, "callback", None)
     return not iscoroutinefunction(callback) and (entry.kind == "event" or has_known_group(entry.entity))
 
 
-def _has_own_waitables(state: NodeState) -> bool:
+#: What an executor asks a node for.
+_ASKED = ("subscriptions", "timers", "clients", "services", "guards", "waitables")
+
+
+def _is_plain_node(state: NodeState) -> bool:
+    """Return whether an executor finds nothing in a node but what the engine can take directly."""
     node = state.node
+    if any(getattr(type(node), name) is not getattr(Node, name) for name in _ASKED):
+        return False  # its class has a method of that name, say: rclpy says what comes of that
     own = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
-    return own or any(True for _ in node.guards)
+    return not own and not any(True for _ in node.guards)
 
 
 def _can_end(wait: Wait) -> bool:

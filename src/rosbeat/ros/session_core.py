@@ -217,15 +217,10 @@ class SessionCore:
 
     def _adopt_entities(self, state: NodeState) -> None:
         """Watch entities that no `create_*` of the node has made, as in a lifecycle node."""
-        node, known = state.node, self._entries
-        for kind, entities in (
-            ("subscription", node.subscriptions),
-            ("service", node.services),
-            ("client", node.clients),
-            ("timer", node.timers),
-        ):
-            for entity in entities:
-                if entity not in known:
+        for kind in ("subscription", "service", "client", "timer"):
+            # Not the node's own attribute, which its class may have replaced.
+            for entity in getattr(Node, f"{kind}s").fget(state.node):
+                if entity not in self._entries:
                     self._watch(state, kind, entity)
 
     def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
