@@ -33,7 +33,8 @@ sys.path.insert(0, {folder!r})
 sys.argv[0] = {name!r}
 sys.exit(import_module({name!r}).main())
 """
-_LOG = re.compile(r"\[(?P<level>\w+)\] \[(?P<stamp>[\d.]+)\] \[(?P<node>[^\]]+)\]: (?P<text>.*)")
+#: A line as rcutils prints it by default.
+LOG = re.compile(r"\[(?P<level>\w+)\] \[(?P<stamp>[\d.]+)\] \[(?P<node>[^\]]+)\]: (?P<text>.*)")
 #: The line of rcl's C code that noticed an error, and a hint that only the interpreter itself gives
 #: (before Python 3.12).
 _BESIDE_THE_POINT = re.compile(r", at /\S+:\d+$|\. Did you mean: .*\?$")
@@ -179,7 +180,7 @@ def outcome_of(
         shown = re.sub(r"\d+\.\d\dC", "#C", text.partition("\n")[0])
         lines.setdefault(node, []).append(Line(seconds - began, level, shown))
     _, traceback, trace = stderr.partition("Traceback (most recent call last):")
-    rest = [line for line in trace.splitlines() if line.strip() and not _LOG.match(line)]
+    rest = [line for line in trace.splitlines() if line.strip() and not LOG.match(line)]
     own = [
         (int(found["line"]), found["function"])
         for line in rest
@@ -187,7 +188,7 @@ def outcome_of(
     ]
     error = next((line for line in reversed(rest) if not line.startswith(" ")), "")
     error = _BESIDE_THE_POINT.sub("", error) if traceback else ""
-    shown = [one for one in printed.splitlines() if not _LOG.match(one) and one not in further]
+    shown = [one for one in printed.splitlines() if not LOG.match(one) and one not in further]
     return Outcome(returncode, error, tuple(own), shown, lines)
 
 
@@ -212,7 +213,7 @@ class _Process:
         assert self.process.stderr is not None
         for line in self.process.stderr:
             self.stderr.append(line)
-            if _LOG.match(line):
+            if LOG.match(line):
                 self.has_logged.set()
         self.has_logged.set()  # it has ended
 
@@ -249,7 +250,7 @@ class _Process:
         return printed
 
     def logs(self) -> list[tuple[float, str, str, str]]:
-        found = [_LOG.match(line.rstrip("\n")) for line in self.stderr]
+        found = [LOG.match(line.rstrip("\n")) for line in self.stderr]
         return [
             (float(one["stamp"]), one["level"], one["node"], one["text"]) for one in found if one
         ]

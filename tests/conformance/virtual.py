@@ -2,33 +2,69 @@
 
 from __future__ import annotations
 
+import asyncio
 import io
+from collections.abc import Callable
 from contextlib import redirect_stdout
 
+from rclpy.node import Node
+
 from conformance.entry_points import FOLDER, Outcome, Run, outcome_of
-from conformance.programs import JOURNAL, Case, Entry
+from conformance.programs import JOURNAL, Case, Entry, run_main
 from rosbeat import Session
 
 
 def run_case(case: Case) -> list[Entry]:
     """Run a case in a session and return what its nodes wrote, in order."""
+    if not case.in_kernel:
+        return _run_case(case)
+
+    async def run() -> list[Entry]:
+        return _run_case(case)
+
+    return asyncio.run(run())
+
+
+def _run_case(case: Case) -> list[Entry]:
     JOURNAL.entries.clear()
     now = 0.0
+    processes = list(enumerate(case.processes))
     with Session(seed=1) as ros:
-        for process in sorted(case.processes, key=lambda process: process.start):
+        begin_ns = _clock_of(ros)
+        JOURNAL.now = lambda: begin_ns + round(ros.time * 1e9)
+        for number, process in sorted(processes, key=lambda pair: pair[1].start):
             ros.run(process.start - now, quiet=True)
             now = process.start
             if process.main is not None:
-                ros.spawn(process.main)
+                ros.spawn(_observed(number, process.main))
             elif process.threads > 1:
                 ros.add(*process.nodes, threads=process.threads)
             else:
                 ros.add(*process.nodes)
         ros.run(case.seconds - now, quiet=True)
-        # A session's clock begins at zero.
-        entries = [Entry(ns / 1e9, node, text) for ns, node, text in JOURNAL.entries]
+        entries = [Entry((ns - begin_ns) / 1e9, node, text) for ns, node, text in JOURNAL.entries]
+        if case.logs:
+            entries += [
+                Entry(line.time, f"log {line.name}", f"{line.level} {line.text}")
+                for line in ros.logs()
+            ]
     # The clock of a real process is late: what is due at the very end is not seen there.
     return [entry for entry in entries if entry.time < case.seconds - 1e-6]
+
+
+def _observed(number: int, main: Callable[[], None]) -> Callable[[], None]:
+    def observed_main() -> None:
+        run_main(number, main)
+
+    return observed_main
+
+
+def _clock_of(ros: Session) -> int:
+    """Return what the clock of a node shows now, in nanoseconds."""
+    node = ros.add(lambda: Node("scout", start_parameter_services=False, enable_rosout=False))
+    now: int = node.get_clock().now().nanoseconds
+    ros.remove(node)
+    return now
 
 
 def run_program(run: Run) -> Outcome:
