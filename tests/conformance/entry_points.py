@@ -60,6 +60,7 @@ class Run:
         at: When the signal is sent, in seconds after its first log line.
         first_line: When that comes, in seconds of virtual time after its start.
         differs: Why virtual time does something else, on purpose.
+        is_script: Whether it is run as `python file.py`, for it has no function `main`.
         beside: Files of programs that run beside it. When they start differs from run to run, so
             times are not compared, and equal lines that follow each other count once.
     """
@@ -72,6 +73,7 @@ class Run:
     beside: tuple[str, ...] = ()
     first_line: float = 0.0
     differs: str = ""
+    is_script: bool = False
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,15 @@ RUNS = {
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
         Run("arguments", "mains/arguments.py", ("one", "--ros-args", *_REMAPPED, "--", "two"),
             signal.SIGTERM, at=1.4),
+        Run("script", "mains/script.py", is_script=True),
+        Run("guarded_script", "mains/guarded_script.py", is_script=True),
+        Run("guarded_script-SIGINT", "mains/guarded_script.py", ("--ros-args", "-r", "__node:=x"),
+            signal.SIGINT, at=1.0, is_script=True),
+        Run("closing_client", "mains/closing_client.py", beside=("mains/add_service.py",)),
+        Run("publishing_at_the_end", "mains/publishing_at_the_end.py", signal=signal.SIGINT, at=1.0),
+        Run("debug_lines", "mains/debug_lines.py",
+            ("--ros-args", "--log-level", "talkative:=debug", "--log-level", "module:=warn"),
+            signal.SIGTERM, at=1.0),
         Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
     ]
 }  # fmt: skip
@@ -195,13 +206,16 @@ def outcome_of(
 class _Process:
     """A real process, and what it writes to standard error, read as it comes."""
 
-    def __init__(self, file: str, arguments: Sequence[str], domain: int) -> None:
+    def __init__(
+        self, file: str, arguments: Sequence[str], domain: int, is_script: bool = False
+    ) -> None:
         path = FOLDER / file
         code = _ENTRY_POINT.format(folder=str(path.parent), name=path.stem)
+        program = [str(path)] if is_script else ["-c", code]
         # Processes that are killed leave shared memory behind, so they talk by UDP.
         private = {"ROS_DOMAIN_ID": str(domain), "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
         self.process = subprocess.Popen(
-            [sys.executable, "-c", code, *arguments],
+            [sys.executable, *program, *arguments],
             env=os.environ | private, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
         self.stderr: list[str] = []
@@ -263,7 +277,7 @@ def run_program(run: Run, domain: int) -> Outcome:
         for file in run.beside:
             others.append(stack.enter_context(_Process(file, (), domain)))
             others[-1].wait_for_start()
-        one = stack.enter_context(_Process(run.file, run.arguments, domain))
+        one = stack.enter_context(_Process(run.file, run.arguments, domain, run.is_script))
         one.wait_for_start()
         late = 0.0
         if run.signal is not None:

@@ -119,6 +119,9 @@ class Journal:
 
 JOURNAL = Journal()
 
+#: How far times may lie apart where a `main` calls `rclpy.init` after the case has begun.
+START_OF_MAIN = 0.25
+
 CASES: dict[str, Case] = {}
 
 
@@ -131,6 +134,8 @@ def case(seconds: float, **options: Any) -> Callable[[Build], Build]:
     def register(build: Build) -> Build:
         about = inspect.cleandoc(build.__doc__ or "")
         processes = tuple(build())
+        if any(process.main is not None for process in processes):
+            options.setdefault("tolerance", START_OF_MAIN)
         CASES[build.__name__] = Case(build.__name__, about, processes, seconds, **options)
         return build
 
