@@ -102,7 +102,7 @@ def lifecycle_by_services() -> list[Process]:
     return [Process((LifecycleTalker,)), Process((Manager,)), Process((NumberListener,), start=0.1)]
 
 
-@case(2.0)
+@case(1.85)
 def lifecycle_by_methods() -> list[Process]:
     """So it does by its own methods; nobody hears what an inactive publisher publishes."""
 
@@ -357,7 +357,7 @@ def context_destroyed() -> list[Process]:
     return [Process(main=main), Process((Beat,))]
 
 
-@case(2.2)
+@case(2.1)
 def two_nodes_of_one_name() -> list[Process]:
     """Two processes whose nodes have the same name both run; only a person is confused."""
 
@@ -397,7 +397,7 @@ def two_programs_of_one_name() -> list[Process]:
     return [program(1), program(3)]
 
 
-@case(2.0, misfits=True)
+@case(1.8, misfits=True)
 def two_types_on_one_topic() -> list[Process]:
     """A publisher and a subscription of different types do not find each other; all run."""
 

@@ -159,7 +159,7 @@ RUNS = {
         Run("guarded_script-SIGINT", "mains/guarded_script.py", ("--ros-args", "-r", "__node:=x"),
             signal.SIGINT, at=1.0, is_script=True),
         Run("closing_client", "mains/closing_client.py", beside=("mains/add_service.py",)),
-        Run("publishing_at_the_end", "mains/publishing_at_the_end.py", signal=signal.SIGINT, at=1.0),
+        Run("publishing_at_the_end", "mains/publishing_at_the_end.py", (), signal.SIGINT, at=1.0),
         Run("debug_lines", "mains/debug_lines.py",
             ("--ros-args", "--log-level", "talkative:=debug", "--log-level", "module:=warn"),
             signal.SIGTERM, at=1.0),
