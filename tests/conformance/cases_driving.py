@@ -11,6 +11,7 @@ import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.task import Future
+from std_msgs.msg import Int32
 from test_msgs.srv import BasicTypes
 
 from conformance.programs import (
@@ -21,6 +22,7 @@ from conformance.programs import (
     Process,
     case,
     sum_of,
+    wait_until,
     work_for_a_while,
 )
 
@@ -190,8 +192,9 @@ class Asker(AddingNode):
 
     def __init__(self) -> None:
         super().__init__("asker")
+        self.client.wait_for_service()
         self.every(0.7)
-        self.once(0.5, self.ask)
+        self.once(0.3, self.ask)
 
     def ask(self) -> None:
         self.note("asks")
@@ -203,7 +206,7 @@ class Asker(AddingNode):
         self.note(f"ok {rclpy.ok()}")
 
 
-@case(2.0, tolerance=FIRST_REQUEST)
+@case(2.0, from_first=True)
 def shutdown_in_a_done_callback() -> list[Process]:
     """`rclpy.shutdown()` in a done callback ends `spin`, and the program."""
 
@@ -281,7 +284,7 @@ def surroundings_of_a_task() -> list[Process]:
     return [Process(main=main)]
 
 
-@case(2.2, tolerance=FIRST_REQUEST)
+@case(2.0, from_first=True)
 def spin_once_counts_coroutines() -> list[Process]:
     """A coroutine that goes on is what a call of `spin_once` has done."""
 
@@ -295,7 +298,8 @@ def spin_once_counts_coroutines() -> list[Process]:
             node.note_response(await node.client.call_async(sum_of(4, 5)))
             answered.append(True)
 
-        node.once(0.5, ask, node.client.callback_group)
+        node.client.wait_for_service()
+        node.once(0.3, ask, node.client.callback_group)
         while not answered:
             rclpy.spin_once(node)
         node.note("has the answer")
@@ -362,16 +366,14 @@ def event_loop_that_waits() -> list[Process]:
     return [_asyncio_program(0.02), Process((lambda: Beat("other"),))]
 
 
-@case(2.0)
+@case(2.3, from_first=True)
 def event_loop_that_publishes() -> list[Process]:
     """An event loop needs no executor to publish, and other processes hear it."""
 
     def main() -> None:
-        from std_msgs.msg import Int32
-
         async def publish(node: LoggedNode) -> None:
             publisher = node.create_publisher(Int32, "number", 10)
-            await asyncio.sleep(0.5)
+            wait_until(publisher.get_subscription_count)
             for number in range(3):
                 node.note(f"publishes {number}")
                 publisher.publish(Int32(data=number))

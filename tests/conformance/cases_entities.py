@@ -25,6 +25,7 @@ from conformance.programs import (
     Process,
     case,
     sum_of,
+    wait_until,
 )
 
 #: How long the first request of a client may take to a server that has just been found, in seconds.
@@ -283,8 +284,8 @@ class Destroyer(LoggedNode):
         super().__init__("destroyer")
         self.publisher = self.create_publisher(Int32, "answer", 10)
         self.subscription = self.create_subscription(Int32, "number", self.on_number, 10)
-        self.once(0.9, lambda: self.destroy(kind))
-        self.once(1.1, lambda: self.note("runs on"))
+        self.once(1.5, lambda: self.destroy(kind))
+        self.once(1.8, lambda: self.note("runs on"))
 
     def on_number(self, message: Int32) -> None:
         self.note(f"number {message.data}")
@@ -299,8 +300,8 @@ class NumberTalker(LoggedNode):
 
     def __init__(self) -> None:
         super().__init__("talker")
-        self.publish_at(0.7, "number", 1)
-        self.publish_at(1.4, "number", 2)
+        self.publish_at(1.2, "number", 1)  # when the others have found it
+        self.publish_at(2.1, "number", 2)
 
 
 def _destroying(kind: str) -> list[Process]:
@@ -311,19 +312,19 @@ def _destroying(kind: str) -> list[Process]:
     return [Process(main=main), Process((NumberTalker,)), Process((NumberListener,))]
 
 
-@case(1.9)
+@case(2.5)
 def publisher_destroyed_by_itself() -> list[Process]:
     """`publisher.destroy()` ends its own process, and no other."""
     return _destroying("publisher")
 
 
-@case(1.9)
+@case(2.5)
 def subscription_destroyed_by_itself() -> list[Process]:
     """So does `subscription.destroy()`."""
     return _destroying("subscription")
 
 
-@case(1.9)
+@case(2.5)
 def subscription_made_after_one_was_destroyed() -> list[Process]:
     """After `subscription.destroy()` others can be made; the process ends when it spins."""
 
@@ -380,21 +381,22 @@ def two_nodes_of_one_name() -> list[Process]:
     return [Process((First, Beat)), Process((Second,)), Process((Talker,))]
 
 
-@case(2.2)
+@case(2.6)
 def two_programs_of_one_name() -> list[Process]:
     """So do two programs, and each ends by itself."""
 
-    def program(count: int) -> Process:
+    def program(start: float, period: float, count: int) -> Process:
         def main() -> None:
             rclpy.init()
             node = LoggedNode("counter")
-            node.every(0.5, f"of {count}")
+            node.every(period, f"of {count}")
             for _ in range(count):
                 rclpy.spin_once(node)
 
-        return Process(main=main, start=0.1 * count)
+        return Process(main=main, start=start)
 
-    return [program(1), program(3)]
+    # The second runs between the two lines of the first.
+    return [program(0.0, 1.0, 2), program(1.0, 0.5, 1)]
 
 
 @case(1.8, misfits=True)
@@ -426,7 +428,7 @@ def two_types_on_one_topic() -> list[Process]:
     return [Process((Talker,)), Process((Fitting,)), Process((Misfit,))]
 
 
-@case(2.0, tolerance=FIRST_REQUEST)
+@case(1.8, from_first=True)
 def publisher_after_shutdown() -> list[Process]:
     """After `rclpy.shutdown()` a publisher refuses a message, and a subscriber gets none."""
 
@@ -434,9 +436,10 @@ def publisher_after_shutdown() -> list[Process]:
         rclpy.init()
         node = LoggedNode("talker")
         publisher = node.create_publisher(Int32, "number", 10)
-        time.sleep(0.8)
+        wait_until(publisher.get_subscription_count)
         node.note("publishes 1")
         publisher.publish(Int32(data=1))
+        time.sleep(0.3)
         rclpy.shutdown()
         node.note("publishes 2")
         publisher.publish(Int32(data=2))
@@ -444,14 +447,15 @@ def publisher_after_shutdown() -> list[Process]:
     return [Process(main=main), Process((NumberListener,))]
 
 
-@case(2.0, tolerance=FIRST_REQUEST)
+@case(1.8, from_first=True)
 def client_after_shutdown() -> list[Process]:
     """A client still sends its request; `spin` returned when the context was shut down."""
 
     def main() -> None:
         rclpy.init()
         node = AddingNode("asker")
-        node.once(0.6, rclpy.shutdown)
+        node.client.wait_for_service()
+        node.once(0.3, rclpy.shutdown)
         rclpy.spin(node)
         node.note("asks")
         node.client.call_async(sum_of(1, 2))
@@ -459,7 +463,7 @@ def client_after_shutdown() -> list[Process]:
     return [Process(main=main), Process((Adder,))]
 
 
-@case(2.0)
+@case(2.3, tolerance=FIRST_REQUEST)
 def service_of_a_new_node() -> list[Process]:
     """A node that a callback makes, and adds to the executor, serves."""
 
@@ -476,7 +480,7 @@ def service_of_a_new_node() -> list[Process]:
     class Asker(AddingNode):
         def __init__(self) -> None:
             super().__init__("asker")
-            self.once(1.3, self.ask)
+            self.once(1.6, self.ask)
 
         def ask(self) -> None:
             self.note(f"ready {self.client.service_is_ready()}")

@@ -120,7 +120,7 @@ class Journal:
 JOURNAL = Journal()
 
 #: How far times may lie apart where a `main` calls `rclpy.init` after the case has begun.
-START_OF_MAIN = 0.25
+START_OF_MAIN = 0.4
 
 CASES: dict[str, Case] = {}
 
@@ -165,9 +165,15 @@ def error_line(error: BaseException) -> str:
     return _PLACE_IN_C.sub("", line)
 
 
+def wait_until(has_found: Callable[[], object]) -> None:
+    """Wait until a `main` that has just begun has found another process; in virtual time it has."""
+    while not has_found():
+        time.sleep(0.01)
+
+
 def work_for_a_while() -> None:
     """Keep the processor busy for longer than a busy machine is late; it takes no virtual time."""
-    end = time.thread_time() + 0.12
+    end = time.thread_time() + 0.07
     while time.thread_time() < end:
         pass
 
