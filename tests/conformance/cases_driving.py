@@ -400,7 +400,7 @@ class LoopInACallback(LoggedNode):
 
     def run(self) -> None:
         async def answer() -> int:
-            await asyncio.sleep(0.5)
+            await asyncio.sleep(0.4)
             return 42
 
         try:

@@ -66,7 +66,7 @@ class Manager(LoggedNode):
     """Leads the talker through its states."""
 
     #: When it asks for which transition: configure, activate, deactivate, clean up.
-    plan = ((0.5, 1), (1.25, 3), (2.0, 4), (2.5, 2))
+    plan = ((0.5, 1), (1.25, 3), (1.85, 4), (2.45, 2))
 
     def __init__(self) -> None:
         super().__init__("manager")
@@ -265,14 +265,14 @@ class TokenGroup(CallbackGroup):
         pass
 
 
-@case(3.35)
+@case(2.7)
 def callback_group_of_a_program() -> list[Process]:
     """A callback group of the program's own is asked before each callback."""
 
     class Limited(LoggedNode):
         def __init__(self) -> None:
             super().__init__("limited")
-            self.every(0.23, "beat", TokenGroup(self))
+            self.every(0.28, "beat", TokenGroup(self))
 
     return [Process((Limited,))]
 

@@ -78,7 +78,7 @@ def watchdog_by_the_performance_counter() -> list[Process]:
     return [Process((lambda: Watchdog(clock),)), Process((TwoNumbers,))]
 
 
-@case(1.8)
+@case(1.65)
 def drive_for_some_time() -> list[Process]:
     """A loop that drives for 0.7 s by `time.time()` sends as many commands."""
 
@@ -87,7 +87,7 @@ def drive_for_some_time() -> list[Process]:
             super().__init__("driver")
             self.publisher = self.create_publisher(Int32, "number", 10)
             self.once(0.3, self.drive)
-            self.every(0.4)
+            self.every(0.9)
 
         def drive(self) -> None:
             start = time.time()
@@ -237,9 +237,9 @@ def throttled_lines() -> list[Process]:
         def tell(self) -> None:
             self.count += 1
             logger = self.get_logger()
-            logger.info(f"throttled {self.count}", throttle_duration_sec=0.75)
+            logger.info(f"throttled {self.count}", throttle_duration_sec=0.7)
             logger.info(f"once {self.count}", once=True)
-            logger.info(f"skipped first {self.count}", skip_first=True, throttle_duration_sec=0.75)
+            logger.info(f"skipped first {self.count}", skip_first=True, throttle_duration_sec=0.7)
             if self.count > 2:
                 logger.info(f"both {self.count}", once=True, throttle_duration_sec=0.5)
 

@@ -52,7 +52,7 @@ class Worker(LoggedNode):
         self.publisher = self.create_publisher(Int32, "number", 10)
         self.thread = threading.Thread(target=self.work, daemon=True)
         self.once(0.3, self.thread.start)
-        self.every(0.55)
+        self.every(0.9)
 
     def work(self) -> None:
         for number in range(3):
@@ -84,7 +84,7 @@ def timer_of_threading() -> list[Process]:
             super().__init__("timed")
             self.alarms = [
                 threading.Timer(seconds, self.note, (f"timer of {seconds} s",))
-                for seconds in (0.5, 0.8, 1.2)
+                for seconds in (0.45, 0.8, 1.1)
             ]
             self.every(0.35)
             self.once(0.1, self.begin)
@@ -149,7 +149,7 @@ def condition_between_threads() -> list[Process]:
                     self.ready += 1
                     self.note(f"ready {self.ready}")
                     self.condition.notify()
-            time.sleep(0.3)
+            time.sleep(0.21)
 
         def wait(self) -> None:
             thread = threading.Thread(target=self.work)
@@ -181,13 +181,13 @@ def pool_of_threads() -> list[Process]:
             return seconds
 
         def work(self) -> None:
-            jobs = [self.pool.submit(self.job, seconds) for seconds in (0.7, 0.4)]
+            jobs = [self.pool.submit(self.job, seconds) for seconds in (0.65, 0.4)]
             self.note(f"in all {sum(job.result() for job in jobs):.1f} s")
 
     return [Process((Pooled,))]
 
 
-@case(2.05)
+@case(2.2)
 def lock_between_callbacks() -> list[Process]:
     """A lock that one thread of the executor holds while it sleeps holds up another."""
 
@@ -198,7 +198,7 @@ def lock_between_callbacks() -> list[Process]:
             self.lock = threading.Lock()
             self.once(0.3, lambda: self.work("first"), group)
             self.once(0.6, lambda: self.work("second"), group)
-            self.every(0.45, group=group)
+            self.every(0.65, group=group)
 
         def work(self, name: str) -> None:
             with self.lock:
@@ -236,12 +236,12 @@ def executor_that_spins_in_a_thread() -> list[Process]:
     def main() -> None:
         rclpy.init()
         node = LoggedNode("rated")
-        node.every(0.55)
+        node.every(1.2)
         executor = MultiThreadedExecutor(num_threads=2)
         executor.add_node(node)
         thread = threading.Thread(target=executor.spin, daemon=True)
         thread.start()
-        rate = node.create_rate(2.5)
+        rate = node.create_rate(2.0)
         for number in range(3):
             rate.sleep()
             node.note(f"step {number + 1}")
