@@ -140,7 +140,7 @@ def condition_between_threads() -> list[Process]:
             super().__init__("conditioned")
             self.condition = threading.Condition()
             self.ready = 0
-            self.once(0.4, self.wait)
+            self.once(0.5, self.wait)
 
         def work(self) -> None:
             for _ in range(2):
@@ -149,14 +149,14 @@ def condition_between_threads() -> list[Process]:
                     self.ready += 1
                     self.note(f"ready {self.ready}")
                     self.condition.notify()
-            time.sleep(0.21)
+            time.sleep(0.15)
 
         def wait(self) -> None:
             thread = threading.Thread(target=self.work)
             thread.start()
             with self.condition:
                 self.note(f"condition {self.condition.wait_for(lambda: self.ready == 2, 3.0)}")
-            thread.join(0.1)
+            thread.join(0.05)
             self.note(f"alive {thread.is_alive()}")
             thread.join()
             self.note(f"alive {thread.is_alive()}")

@@ -231,9 +231,12 @@ def _entries(case: Case, children: Sequence[Child], zero_ns: int) -> dict[str, A
 
 
 def _log_lines(child: Child, zero_ns: int) -> Iterator[list[Any]]:
-    """Yield what the loggers of a process wrote: time, name, and level and text."""
+    """Yield what the loggers of a process wrote: time, name, and level and text.
+
+    What the middleware says of its own settings, and this program, is left out.
+    """
     for line in LOG.finditer(child.stderr.read_text()):
-        if line["node"] != _OWN_LOGGER:
+        if line["node"] != _OWN_LOGGER and not line["node"].startswith("rmw_"):
             seconds = round(float(line["stamp"]) * 1e9 - zero_ns) / 1e9
             yield [seconds, f"log {line['node']}", f"{line['level']} {line['text']}"]
 
