@@ -72,8 +72,6 @@ def real(
             yield Real(measured, programs.result())
 
 
-# A program that does not give the loop of the session back would hold up all that follow.
-@pytest.mark.timeout(30, func_only=True)
 @pytest.mark.parametrize("name", CASES)
 def test_case(name: str, real: Real) -> None:
     seconds, done = CASES[name].seconds, real.cases[name]
@@ -89,7 +87,6 @@ def test_case(name: str, real: Real) -> None:
         assert not differences, "\n".join([CASES[name].about, *differences, *done.stderr])
 
 
-@pytest.mark.timeout(30, func_only=True)
 @pytest.mark.parametrize("name", RUNS)
 def test_program(name: str, real: Real) -> None:
     done = real.programs[name]

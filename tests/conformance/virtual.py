@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import io
-from collections.abc import Callable
-from contextlib import redirect_stdout
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stdout
 
 from rclpy.node import Node
 
@@ -13,16 +15,53 @@ from conformance.entry_points import FOLDER, Outcome, Run, outcome_of
 from conformance.programs import JOURNAL, Case, Entry, run_main
 from rosbeat import Session
 
+#: Seconds after which a run in virtual time is interrupted; most take some hundredths.
+LIMIT = 20.0
+#: Seconds between two interrupts: a program may have hung while the first one ended it.
+AGAIN = 2.0
+
+
+@contextmanager
+def _limited() -> Iterator[None]:
+    """Press Ctrl+C until this block ends, if it takes too long.
+
+    A program that never gives the loop of the session back would hold up all tests that follow.
+
+    Raises:
+        TimeoutError: If it has taken too long.
+    """
+    main, ended = threading.get_ident(), threading.Event()
+    pressed = False
+
+    def interrupt() -> None:
+        nonlocal pressed
+        wait = LIMIT
+        while not ended.wait(wait):
+            pressed, wait = True, AGAIN
+            signal.pthread_kill(main, signal.SIGINT)
+
+    watcher = threading.Thread(target=interrupt, daemon=True)
+    watcher.start()
+    try:
+        yield
+    except KeyboardInterrupt:
+        if not pressed:
+            raise
+    finally:
+        ended.set()
+        watcher.join()
+    if pressed:
+        raise TimeoutError(f"the session did not go on for {LIMIT:g} s")
+
 
 def run_case(case: Case) -> list[Entry]:
     """Run a case in a session and return what its nodes wrote, in order."""
-    if not case.in_kernel:
+
+    async def run_in_loop() -> list[Entry]:
         return _run_case(case)
 
-    async def run() -> list[Entry]:
-        return _run_case(case)
-
-    return asyncio.run(run())
+    with _limited():
+        return asyncio.run(run_in_loop()) if case.in_kernel else _run_case(case)
 
 
 def _run_case(case: Case) -> list[Entry]:
@@ -70,7 +109,7 @@ def _clock_of(ros: Session) -> int:
 def run_program(run: Run) -> Outcome:
     """Run a program as a simulated process and return how it ended."""
     printed = io.StringIO()
-    with Session(seed=1) as ros, redirect_stdout(printed):
+    with _limited(), Session(seed=1) as ros, redirect_stdout(printed):
         for other in run.beside:
             ros.spawn(str(FOLDER / other))
         program = ros.spawn(str(FOLDER / run.file), *run.arguments)
