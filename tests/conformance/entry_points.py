@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import Queue
 
-from conformance.machine import Watch
+from conformance.machine import LOOPBACK, Watch
 
 FOLDER = Path(__file__).parent
 
@@ -212,8 +212,7 @@ class _Process:
         path = FOLDER / file
         code = _ENTRY_POINT.format(folder=str(path.parent), name=path.stem)
         program = [str(path)] if is_script else ["-c", code]
-        # Processes that are killed leave shared memory behind, so they talk by UDP.
-        private = {"ROS_DOMAIN_ID": str(domain), "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+        private = {"ROS_DOMAIN_ID": str(domain), **LOOPBACK}
         self.process = subprocess.Popen(
             [sys.executable, *program, *arguments],
             env=os.environ | private, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

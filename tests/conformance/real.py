@@ -27,8 +27,9 @@ from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
 from typing import Any
 
-# Processes that are killed leave shared memory behind, so they talk by UDP.
-os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
+from conformance.machine import LOOPBACK, Watch, read_lines
+
+os.environ.update(LOOPBACK)  # before the middleware looks
 
 import rclpy
 from rcl_interfaces.msg import Log, ParameterEvent
@@ -43,7 +44,6 @@ from test_msgs.srv import BasicTypes
 
 from conformance.cases import CASES
 from conformance.entry_points import LOG
-from conformance.machine import Watch, read_lines
 from conformance.programs import JOURNAL, Case, Entry, Process, run_main
 
 #: Processes that run at once, and their start, keep two cores busy; more would disturb each other.

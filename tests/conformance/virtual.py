@@ -122,6 +122,8 @@ def run_program(run: Run) -> Outcome:
         # A session prints log lines and what the programs print into one stream.
         lines = printed.getvalue().splitlines(keepends=True)
         own = "".join(
-            line for line in lines if not line.startswith(("[INFO]", "[WARN]", "rosbeat:"))
+            line
+            for line in lines
+            if not line.startswith(("[DEBUG]", "[INFO]", "[WARN]", "rosbeat:"))
         )
         return outcome_of(program.returncode, own, program.stderr, logs)
