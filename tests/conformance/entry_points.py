@@ -37,7 +37,7 @@ sys.exit(import_module({name!r}).main())
 LOG = re.compile(r"\[(?P<level>\w+)\] \[(?P<stamp>[\d.]+)\] \[(?P<node>[^\]]+)\]: (?P<text>.*)")
 #: The line of rcl's C code that noticed an error, and a hint that only the interpreter itself gives
 #: (before Python 3.12).
-_BESIDE_THE_POINT = re.compile(r", at /\S+:\d+$|\. Did you mean: .*\?$")
+_BESIDE_THE_POINT = re.compile(r", at \S+:\d+$|\. Did you mean: .*\?$")
 _FRAME = re.compile(r'\s*File "(?P<file>[^"]*)", line (?P<line>\d+), in (?P<function>\S+)')
 #: How far the log lines of a program may lie apart, in seconds. Its first line is time zero on both
 #: sides, and its timers are made some hundredths of a second before or after that.

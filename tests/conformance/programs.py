@@ -143,7 +143,7 @@ def case(seconds: float, **options: Any) -> Callable[[Build], Build]:
 
 
 #: The line of rcl's C code that noticed an error.
-_PLACE_IN_C = re.compile(r", at /\S+:\d+$")
+_PLACE_IN_C = re.compile(r", at \S+:\d+$")
 
 
 def run_main(number: int, main: Callable[[], Any]) -> None:
