@@ -118,9 +118,9 @@ def task_made_before_spin() -> list[Process]:
             return "first result"
 
         async def second() -> None:
-            node.note(f"second task has the {await one}")
+            node.note(f"second task has the {await first_task}")
 
-        one = executor.create_task(first)
+        first_task = executor.create_task(first)
         executor.create_task(second)
         executor.create_task(node.note, "third task")
         executor.spin()

@@ -114,7 +114,7 @@ def clocks_of_a_program() -> list[Process]:
                 "system": Clock(),
                 "steady": Clock(clock_type=ClockType.STEADY_TIME),
             }
-            self.began = {}
+            self.began: dict[str, Time] = {}
             self.once(0.3, self.begin)
             self.once(0.8, self.look)
 
@@ -207,8 +207,8 @@ def warnings_of_incompatible_qos() -> list[Process]:
     class Talker(LoggedNode):
         def __init__(self) -> None:
             super().__init__("talker")
-            self.one = self.create_publisher(Int32, "number", best_effort)
-            self.other = self.create_publisher(Int32, "stored", volatile)
+            self.lossy = self.create_publisher(Int32, "number", best_effort)
+            self.volatile = self.create_publisher(Int32, "stored", volatile)
 
     class Listener(LoggedNode):
         def __init__(self) -> None:
