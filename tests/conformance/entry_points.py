@@ -146,11 +146,7 @@ RUNS = {
         Run("init_for_with", "mains/init_for_with.py", ("--shut-down",)),
         *_both("sleeping_callback", "mains/sleeping_callback.py", at=1.5),
         Run("shutting_down", "mains/shutting_down.py"),
-        Run(
-            "publish_after_shutdown", "mains/publish_after_shutdown.py",
-            # In Kilted a shutdown destroys the nodes, here as well.
-            differs="" if IS_KILTED else _CONTEXT_STILL_WORKS,
-        ),
+        Run("publish_after_shutdown", "mains/publish_after_shutdown.py"),
         Run("add_service", "mains/add_service.py", signal=signal.SIGINT, at=0.8),
         Run(
             "add_client_without_server-SIGINT", "mains/add_client.py", ("2", "3"), signal.SIGINT,
@@ -159,7 +155,6 @@ RUNS = {
         Run(
             "add_client_without_server-SIGTERM", "mains/add_client.py", ("2", "3"), signal.SIGTERM,
             at=1.6, first_line=1.0,
-            differs=_CONTEXT_STILL_WORKS,
         ),
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
         Run("arguments", "mains/arguments.py", ("one", "--ros-args", *_REMAPPED, "--", "two"),

@@ -13,7 +13,7 @@ from rclpy.node import Node
 
 from conformance.entry_points import FOLDER, Outcome, Run, outcome_of
 from conformance.programs import JOURNAL, Case, Entry, run_main
-from rosbeat import Session
+from rosbeat.ros.session import Session
 
 #: Seconds after which a run in virtual time is interrupted; most take some hundredths.
 LIMIT = 20.0

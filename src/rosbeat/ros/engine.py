@@ -17,6 +17,7 @@ waits (`time.sleep`, a service call, its own `spin`) suspends its own thread onl
 from __future__ import annotations
 
 import contextvars
+from asyncio import events
 from _thread import get_ident
 from collections import deque
 from collections.abc import Callable
@@ -123,6 +124,8 @@ class VirtualTime(Switchboard):
         # Executors that wait: all, and by the key of what wakes them.
         self._set_waits: list[Wait] = []
         self._waits_by_key: dict[int, list[Wait]] = {}
+        # Ordinary clients of the services that an action is made of: nobody tells of an answer.
+        self._action_clients: list[Entry] = []
         self._entities_changed = False
         self._changes = 0
         self._end = 0
@@ -153,6 +156,8 @@ class VirtualTime(Switchboard):
                 self.schedule.add_timer(entry, self.now)
         elif entry.take is not None:
             self._listeners.setdefault((entry.kind, entry.name), []).append(entry)
+            if entry.kind == "client" and "/_action/" in entry.name:
+                self._action_clients.append(entry)
         if not is_plain(entry):
             self.hand_over(entry.state.process)
         elif entry.kind != "timer":
@@ -164,6 +169,8 @@ class VirtualTime(Switchboard):
         listeners = self._listeners.get((entry.kind, entry.name), [])
         if entry in listeners:
             listeners.remove(entry)
+        if entry in self._action_clients:
+            self._action_clients.remove(entry)
         if entry.state.process.pending.pop(entry, None) is not None:
             entry.state.process.refresh()
 
@@ -221,6 +228,8 @@ class VirtualTime(Switchboard):
         for wait in self._set_waits:
             if wait.has_waitables:
                 self.wake(wait)
+        for client in self._action_clients:
+            self._hold(client)
 
     def look_at(self, time_ns: int) -> None:
         """Let executors look at their waitables at a time, in nanoseconds of virtual time."""
@@ -281,6 +290,9 @@ class VirtualTime(Switchboard):
         self._enter_thread()
         self._end, self._done, self._ends_idle = end, done, ends_idle
         caller, self.current = self.current, None
+        # A kernel runs cells in an event loop; a callback on a robot is in none.
+        loop = events._get_running_loop()
+        events._set_running_loop(None)
         token = _BOARD.set(self)
         self._main, self._variables = getcurrent(), contextvars.copy_context()
         self.hidden_event()  # the cell may have sent something
@@ -298,6 +310,7 @@ class VirtualTime(Switchboard):
         finally:
             self.running = False
             _BOARD.reset(token)
+            events._set_running_loop(loop)
             self.current = caller
 
     # Waiting.
@@ -814,7 +827,7 @@ class VirtualTime(Switchboard):
             if not waiting:
                 process.has_tasks = False
                 self._catch_up(process)
-                continue
+                return True  # what has come meanwhile has its turn now
             task = waiting[0] if HAS_OLDEST_TASK_FIRST else waiting[-1]
             tasks.appendleft(process)
             self._chain.turn(lambda: [state.name for state in process.states])
