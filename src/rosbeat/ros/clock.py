@@ -277,6 +277,7 @@ def make_clock(keeper: VirtualTime, clock_type: ClockType = ClockType.ROS_TIME) 
     made.keeper, made.is_driven, made._jumps = keeper, False, []
     if ros:
         clock._set_to = None
+    keeper.clocks.add(made)
     made.follow_session()
     if keeper.is_live:
         made.follow_wall()

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from functools import partial
 from inspect import iscoroutine, iscoroutinefunction
 from typing import TYPE_CHECKING, Any, cast
-from weakref import WeakValueDictionary
+from weakref import WeakSet, WeakValueDictionary
 
 from greenlet import GreenletExit, getcurrent
 from rclpy.event_handler import EventHandler
@@ -96,6 +96,7 @@ class VirtualTime(Switchboard):
         is_live: Whether the session is live, so that the wall clock counts.
         deadlines: The QoS deadlines that the session counts.
         timers: The timers whose clocks show virtual time, by their key in a wait set.
+        clocks: All clocks that show virtual time.
         constructor_waits: Called with nanoseconds and the reason when a constructor waits, instead
             of the wait; None to let virtual time pass. Only scenarios set it.
     """
@@ -106,6 +107,7 @@ class VirtualTime(Switchboard):
         self.is_live = False
         self.deadlines = Deadlines()
         self.timers: WeakValueDictionary[int, Timer] = WeakValueDictionary()
+        self.clocks: WeakSet[Any] = WeakSet()
         self.constructor_waits: Callable[[int, str], None] | None = None
         self._core = core
         self._recorder = recorder
@@ -482,9 +484,9 @@ class VirtualTime(Switchboard):
 
     def observe(
         self,
-        entity: Any,
+        entity: Any,  # noqa: ANN401 - any of rclpy's
         node: Node,
-        take: Callable[..., Any],  # noqa: ANN401 - any of rclpy's
+        take: Callable[..., Any],
     ) -> tuple[Call, Callable[..., Any]]:
         """Return a call for the callback of an entity, and a `take` that records that it runs."""
         core, state = self._core, self._core.state_of(node)
@@ -1034,8 +1036,9 @@ def _take_by_us(entry: Entry, engine: VirtualTime, _: object) -> Callable[[], An
 
 
 def _events(
-    context: Any, handlers: list[tuple[NodeState, EventHandler]]
-) -> list[tuple[NodeState, EventHandler]]:  # noqa: ANN401 - rclpy's context
+    context: Any,  # noqa: ANN401 - rclpy's context
+    handlers: list[tuple[NodeState, EventHandler]],
+) -> list[tuple[NodeState, EventHandler]]:
     """Return the event handlers that have something to tell."""
     if not handlers:
         return []

@@ -48,8 +48,10 @@ def _spin(original: Callable[..., None]) -> Callable[..., None]:
             _spin_until_interrupt(node, executor or _executor_for(node))
             return
         if _is_simulated(core) and _may_spin(core):
-            core.virtual.give_way()  # in a loop after a shutdown, `spin` returns at once
+            began = core.virtual.now
             original(node, executor)
+            if core.virtual.now == began:
+                core.virtual.give_way()  # in a loop after a shutdown, `spin` returns at once
         else:
             _refuse_in_constructor(node)
             _spin_in_session(core, node)
@@ -88,9 +90,10 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
     ) -> None:
         core: _Core = core_of(node)
         if core is None or _is_simulated(core):
-            if core is not None:
-                core.virtual.give_way()
+            began = core.virtual.now if core is not None else 0
             original(node, future, executor, timeout_sec)
+            if core is not None and core.virtual.now == began:
+                core.virtual.give_way()
             return
         core.refuse_in_callback("rclpy.spin_until_future_complete")
         core.spin_node(core.state_of(node))

@@ -114,10 +114,9 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):
         assert engine is not None
         nearest: int | None = None
         order = 0
+        self._move_clocks(engine)
         for handle in self._handles["timer"]:
             timer = engine.timers.get(id(handle))
-            if timer is not None:
-                _move(timer)
             with handle:
                 if handle.is_timer_canceled():
                     continue
@@ -148,11 +147,19 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):
         ]  # fmt: skip
 
     def _look(self, engine: VirtualTime) -> None:
-        for handle in self._handles["timer"]:
-            timer = engine.timers.get(id(handle))
-            if timer is not None:
-                _move(timer)
+        self._move_clocks(engine)
         super().wait(0)
+
+    def _move_clocks(self, engine: VirtualTime) -> None:
+        """Let the clocks of the timers show the time of now."""
+        timers = [engine.timers.get(id(handle)) for handle in self._handles["timer"]]
+        if None in timers:  # one of rcl's own, in a waitable of the program's
+            for clock in engine.clocks:
+                clock.move()
+        for timer in timers:
+            move = getattr(timer.clock, "move", None) if timer is not None else None
+            if move is not None:
+                move()
 
     def _add_again(self) -> None:
         handles, self._handles = self._handles, {kind: [] for kind in _KINDS}
@@ -160,12 +167,6 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):
         for kind, listed in handles.items():
             for handle in listed:
                 getattr(self, f"add_{kind}")(handle)
-
-
-def _move(timer: Timer) -> None:
-    move = getattr(timer.clock, "move", None)
-    if move is not None:
-        move()
 
 
 class _Implementation:

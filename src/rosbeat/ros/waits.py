@@ -11,6 +11,7 @@ This module knows greenlets and no rclpy; `engine` says what the loop does.
 from __future__ import annotations
 
 import contextvars
+import logging
 from _thread import get_ident
 from asyncio import events
 from collections import deque
@@ -285,8 +286,14 @@ class Switchboard:
         if wait is not None and not wait.over and wait.thread is not getcurrent():
             before = self.current, self.calling
             wait.over = True
-            with self._running():  # its `finally` blocks may sleep, too
-                _throw(wait.thread, GreenletExit())
+            # A pool of threads would log what ends its threads, as if a task of theirs had raised.
+            pools = logging.getLogger("concurrent.futures")
+            pools.disabled, was_disabled = True, pools.disabled
+            try:
+                with self._running():  # its `finally` blocks may sleep, too
+                    _throw(wait.thread, GreenletExit())
+            finally:
+                pools.disabled = was_disabled
             self.current, self.calling = before
         self._forget_call(call)
 
