@@ -139,9 +139,9 @@ class Session:
         One node is a process of its own, as `ros2 run` starts it. Several nodes share one process
         and its executor: while a callback of one of them runs, or sleeps, the others wait.
 
-        A node of the same name that runs in this session is replaced. `name` and the arguments
-        after it do what `ros2 run` does behind `--ros-args`, with `-r` and `-p`; the class stays as
-        it is.
+        On a page, a node of the same name that runs in this session is replaced; in a test both
+        run. `name` and the arguments after it do what `ros2 run` does behind `--ros-args`, with
+        `-r` and `-p`; the class stays as it is.
 
         Args:
             nodes: Node classes, functions that return a node, or nodes made in this session.
