@@ -77,6 +77,8 @@ class Session(session.Session):
         super().__init__(seed=seed, domain_id=domain_id, start_time=start_time)
         # A cell that is run again makes its node again, in the place of the old one.
         self._core.replaces_nodes = True
+        # A second type for a topic is a slip there, and is named at once.
+        self._core.has_separate_types = False
 
     @called_as('ros.explain("temperature")')
     def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:

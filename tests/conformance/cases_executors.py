@@ -208,7 +208,7 @@ def timer_period_changed() -> list[Process]:
     return [Process((Change,))]
 
 
-@case(1.9, differs="A steady clock counts real time; the session says so when it is used.")
+@case(1.9)
 def timer_on_a_steady_clock() -> list[Process]:
     """A timer on a clock of its own."""
 

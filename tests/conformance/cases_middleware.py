@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
+import rclpy
 from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.callback_groups import (
     CallbackGroup,
@@ -22,6 +23,7 @@ from conformance.programs import (
     LoggedNode,
     Process,
     case,
+    work_for_a_while,
 )
 
 
@@ -154,6 +156,70 @@ def action_that_raises() -> list[Process]:
             raise ValueError("no numbers left")
 
     return [Process((FibonacciClient,)), Process((Raising,))]
+
+
+class FeedbackAtOnce(LoggedNode):
+    """An action server that sends feedback as soon as it has accepted the goal."""
+
+    def __init__(self) -> None:
+        super().__init__("fibonacci_server")
+        self.server = ActionServer(self, Fibonacci, "fibonacci", self.execute)
+
+    def execute(self, goal: Any) -> Fibonacci.Result:
+        self.note("executes")
+        work_for_a_while()  # else the client sometimes finds both when it looks
+        goal.publish_feedback(Fibonacci.Feedback(sequence=[0, 1]))
+        self.sleep(0.4)
+        goal.publish_feedback(Fibonacci.Feedback(sequence=[0, 1, 1]))
+        goal.succeed()
+        return Fibonacci.Result(sequence=[0, 1, 1])
+
+
+class GoalSender(LoggedNode):
+    """Sends a goal, and writes down what comes back."""
+
+    def __init__(self) -> None:
+        super().__init__("fibonacci_client")
+        self.client = ActionClient(self, Fibonacci, "fibonacci")
+        self.once(0.5, self.send)
+
+    def send(self) -> None:
+        self.client.wait_for_server()
+        self.note("sends")
+        sent = self.client.send_goal_async(Fibonacci.Goal(order=2), feedback_callback=self.hear_of)
+        sent.add_done_callback(self.on_response)
+
+    def hear_of(self, message: Any) -> None:
+        self.note(f"hears {list(message.feedback.sequence)}")
+
+    def on_response(self, future: Future) -> None:
+        self.note(f"accepted {future.result().accepted}")
+        future.result().get_result_async().add_done_callback(self.on_result)
+
+    def on_result(self, future: Future) -> None:
+        self.note(f"result {list(future.result().result.sequence)}")
+
+
+@case(2.4, tolerance=0.6)
+def feedback_after_acceptance() -> list[Process]:
+    """A client hears that its goal is accepted before the feedback that follows at once."""
+    return [Process((GoalSender,)), Process((FeedbackAtOnce,))]
+
+
+@case(2.9, tolerance=0.6, from_first=True)
+def feedback_after_acceptance_in_a_program() -> list[Process]:
+    """So does a program that ends with the result."""
+
+    def main() -> None:
+        class Last(GoalSender):
+            def on_result(self, future: Future) -> None:
+                super().on_result(future)
+                rclpy.shutdown()
+
+        rclpy.init()
+        rclpy.spin(Last())
+
+    return [Process(main=main), Process((FeedbackAtOnce,))]
 
 
 #: Fast DDS sends stored messages to a late-joining subscription in another process when the two

@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import Queue
 
-from conformance.machine import Watch
+from conformance.machine import LOOPBACK, Watch
 from distributions import IS_KILTED
 
 FOLDER = Path(__file__).parent
@@ -34,10 +34,11 @@ sys.path.insert(0, {folder!r})
 sys.argv[0] = {name!r}
 sys.exit(import_module({name!r}).main())
 """
-_LOG = re.compile(r"\[(?P<level>\w+)\] \[(?P<stamp>[\d.]+)\] \[(?P<node>[^\]]+)\]: (?P<text>.*)")
+#: A line as rcutils prints it by default.
+LOG = re.compile(r"\[(?P<level>\w+)\] \[(?P<stamp>[\d.]+)\] \[(?P<node>[^\]]+)\]: (?P<text>.*)")
 #: The line of rcl's C code that noticed an error, and a hint that only the interpreter itself gives
 #: (before Python 3.12).
-_BESIDE_THE_POINT = re.compile(r", at /\S+:\d+$|\. Did you mean: .*\?$")
+_BESIDE_THE_POINT = re.compile(r", at \S+:\d+$|\. Did you mean: .*\?$")
 _FRAME = re.compile(r'\s*File "(?P<file>[^"]*)", line (?P<line>\d+), in (?P<function>\S+)')
 #: How far the log lines of a program may lie apart, in seconds. Its first line is time zero on both
 #: sides, and its timers are made some hundredths of a second before or after that.
@@ -60,6 +61,7 @@ class Run:
         at: When the signal is sent, in seconds after its first log line.
         first_line: When that comes, in seconds of virtual time after its start.
         differs: Why virtual time does something else, on purpose.
+        is_script: Whether it is run as `python file.py`, for it has no function `main`.
         beside: Files of programs that run beside it. When they start differs from run to run, so
             times are not compared, and equal lines that follow each other count once.
     """
@@ -72,6 +74,7 @@ class Run:
     beside: tuple[str, ...] = ()
     first_line: float = 0.0
     differs: str = ""
+    is_script: bool = False
 
 
 @dataclass(frozen=True)
@@ -143,11 +146,7 @@ RUNS = {
         Run("init_for_with", "mains/init_for_with.py", ("--shut-down",)),
         *_both("sleeping_callback", "mains/sleeping_callback.py", at=1.5),
         Run("shutting_down", "mains/shutting_down.py"),
-        Run(
-            "publish_after_shutdown", "mains/publish_after_shutdown.py",
-            # In Kilted a shutdown destroys the nodes, here as well.
-            differs="" if IS_KILTED else _CONTEXT_STILL_WORKS,
-        ),
+        Run("publish_after_shutdown", "mains/publish_after_shutdown.py"),
         Run("add_service", "mains/add_service.py", signal=signal.SIGINT, at=0.8),
         Run(
             "add_client_without_server-SIGINT", "mains/add_client.py", ("2", "3"), signal.SIGINT,
@@ -156,11 +155,19 @@ RUNS = {
         Run(
             "add_client_without_server-SIGTERM", "mains/add_client.py", ("2", "3"), signal.SIGTERM,
             at=1.6, first_line=1.0,
-            differs=_CONTEXT_STILL_WORKS,
         ),
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
         Run("arguments", "mains/arguments.py", ("one", "--ros-args", *_REMAPPED, "--", "two"),
             signal.SIGTERM, at=1.4),
+        Run("script", "mains/script.py", is_script=True),
+        Run("guarded_script", "mains/guarded_script.py", is_script=True),
+        Run("guarded_script-SIGINT", "mains/guarded_script.py", ("--ros-args", "-r", "__node:=x"),
+            signal.SIGINT, at=1.0, is_script=True),
+        Run("closing_client", "mains/closing_client.py", beside=("mains/add_service.py",)),
+        Run("publishing_at_the_end", "mains/publishing_at_the_end.py", (), signal.SIGINT, at=1.0),
+        Run("debug_lines", "mains/debug_lines.py",
+            ("--ros-args", "--log-level", "talkative:=debug", "--log-level", "module:=warn"),
+            signal.SIGTERM, at=1.0),
         Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
     ]
 }  # fmt: skip
@@ -189,7 +196,7 @@ def outcome_of(
         shown = re.sub(r"\d+\.\d\dC", "#C", text.partition("\n")[0])
         lines.setdefault(node, []).append(Line(seconds - began, level, shown))
     _, traceback, trace = stderr.partition("Traceback (most recent call last):")
-    rest = [line for line in trace.splitlines() if line.strip() and not _LOG.match(line)]
+    rest = [line for line in trace.splitlines() if line.strip() and not LOG.match(line)]
     own = [
         (int(found["line"]), found["function"])
         for line in rest
@@ -197,20 +204,22 @@ def outcome_of(
     ]
     error = next((line for line in reversed(rest) if not line.startswith(" ")), "")
     error = _BESIDE_THE_POINT.sub("", error) if traceback else ""
-    shown = [one for one in printed.splitlines() if not _LOG.match(one) and one not in further]
+    shown = [one for one in printed.splitlines() if not LOG.match(one) and one not in further]
     return Outcome(returncode, error, tuple(own), shown, lines)
 
 
 class _Process:
     """A real process, and what it writes to standard error, read as it comes."""
 
-    def __init__(self, file: str, arguments: Sequence[str], domain: int) -> None:
+    def __init__(
+        self, file: str, arguments: Sequence[str], domain: int, is_script: bool = False
+    ) -> None:
         path = FOLDER / file
         code = _ENTRY_POINT.format(folder=str(path.parent), name=path.stem)
-        # Processes that are killed leave shared memory behind, so they talk by UDP.
-        private = {"ROS_DOMAIN_ID": str(domain), "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+        program = [str(path)] if is_script else ["-c", code]
+        private = {"ROS_DOMAIN_ID": str(domain), **LOOPBACK}
         self.process = subprocess.Popen(
-            [sys.executable, "-c", code, *arguments],
+            [sys.executable, *program, *arguments],
             env=os.environ | private, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
         self.stderr: list[str] = []
@@ -222,7 +231,7 @@ class _Process:
         assert self.process.stderr is not None
         for line in self.process.stderr:
             self.stderr.append(line)
-            if _LOG.match(line):
+            if LOG.match(line):
                 self.has_logged.set()
         self.has_logged.set()  # it has ended
 
@@ -259,7 +268,7 @@ class _Process:
         return printed
 
     def logs(self) -> list[tuple[float, str, str, str]]:
-        found = [_LOG.match(line.rstrip("\n")) for line in self.stderr]
+        found = [LOG.match(line.rstrip("\n")) for line in self.stderr]
         return [
             (float(one["stamp"]), one["level"], one["node"], one["text"]) for one in found if one
         ]
@@ -272,7 +281,7 @@ def run_program(run: Run, domain: int) -> Outcome:
         for file in run.beside:
             others.append(stack.enter_context(_Process(file, (), domain)))
             others[-1].wait_for_start()
-        one = stack.enter_context(_Process(run.file, run.arguments, domain))
+        one = stack.enter_context(_Process(run.file, run.arguments, domain, run.is_script))
         one.wait_for_start()
         late = 0.0
         if run.signal is not None:

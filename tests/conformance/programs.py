@@ -13,7 +13,9 @@ from __future__ import annotations
 import inspect
 import json
 import os
+import re
 import time
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -59,6 +61,9 @@ class Case:
         from_first: Whether times count from the first event: two processes may need a second to
             find each other when one of them starts while the case runs.
         misfits: Whether it has endpoints that do not fit each other, and never find each other.
+        logs: Whether the log lines of its processes are compared, too: those of nodes, of loggers
+            that no node made, and rclpy's own.
+        in_kernel: Whether the session runs within a running event loop, as in a notebook.
         differs: Why virtual time does something else, on purpose.
     """
 
@@ -70,6 +75,8 @@ class Case:
     global_order: bool = False
     from_first: bool = False
     misfits: bool = False
+    logs: bool = False
+    in_kernel: bool = False
     differs: str = ""
 
 
@@ -79,7 +86,8 @@ class Entry:
 
     Attributes:
         time: Seconds since the case began, by the node's own clock.
-        node: The node's name.
+        node: The node's name; `main 2` for the end of the third process, and `log listener` for
+            what a logger wrote.
         text: What it did.
     """
 
@@ -95,10 +103,12 @@ class Journal:
     Attributes:
         entries: Nanoseconds of the node's own clock, its name, and the text.
         file: A file that is given each entry at once, so that it outlives a process that is killed.
+        now: The time, in nanoseconds, where there is no node to ask.
     """
 
     entries: list[tuple[int, str, str]] = field(default_factory=list)
     file: int | None = None
+    now: Callable[[], int] = time.time_ns
 
     def write(self, nanoseconds: int, node: str, text: str) -> None:
         """Add an entry; may be called from any thread."""
@@ -108,6 +118,9 @@ class Journal:
 
 
 JOURNAL = Journal()
+
+#: How far times may lie apart where a `main` calls `rclpy.init` after the case has begun.
+START_OF_MAIN = 0.4
 
 CASES: dict[str, Case] = {}
 
@@ -121,10 +134,48 @@ def case(seconds: float, **options: Any) -> Callable[[Build], Build]:
     def register(build: Build) -> Build:
         about = inspect.cleandoc(build.__doc__ or "")
         processes = tuple(build())
+        if any(process.main is not None for process in processes):
+            options.setdefault("tolerance", START_OF_MAIN)
         CASES[build.__name__] = Case(build.__name__, about, processes, seconds, **options)
         return build
 
     return register
+
+
+#: The line of rcl's C code that noticed an error.
+_PLACE_IN_C = re.compile(r", at \S+:\d+$")
+
+
+def run_main(number: int, main: Callable[[], Any]) -> None:
+    """Run the `main` of a process, and write down how it ends, unless it is killed."""
+    text = "returns"
+    try:
+        main()
+    except BaseException as error:
+        text = "" if type(error).__name__ == "GreenletExit" else "raises " + error_line(error)
+        raise
+    finally:
+        if text:
+            JOURNAL.write(JOURNAL.now(), f"main {number}", text)
+
+
+def error_line(error: BaseException) -> str:
+    """Return the last line of an exception's traceback."""
+    line = traceback.format_exception_only(type(error), error)[-1].strip()
+    return _PLACE_IN_C.sub("", line)
+
+
+def wait_until(has_found: Callable[[], object]) -> None:
+    """Wait until a `main` that has just begun has found another process; in virtual time it has."""
+    while not has_found():
+        time.sleep(0.01)
+
+
+def work_for_a_while() -> None:
+    """Keep the processor busy for longer than a busy machine is late; it takes no virtual time."""
+    end = time.thread_time() + 0.07
+    while time.thread_time() < end:
+        pass
 
 
 class LoggedNode(Node):

@@ -27,8 +27,9 @@ from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
 from typing import Any
 
-# Processes that are killed leave shared memory behind, so they talk by UDP.
-os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
+from conformance.machine import LOOPBACK, Watch, read_lines
+
+os.environ.update(LOOPBACK)  # before the middleware looks
 
 import rclpy
 from rcl_interfaces.msg import Log, ParameterEvent
@@ -42,13 +43,14 @@ from test_msgs.action import Fibonacci
 from test_msgs.srv import BasicTypes
 
 from conformance.cases import CASES
-from conformance.machine import Watch, read_lines
-from conformance.programs import JOURNAL, Case, Entry, Process
+from conformance.entry_points import LOG
+from conformance.programs import JOURNAL, Case, Entry, Process, run_main
 
 #: Processes that run at once, and their start, keep two cores busy; more would disturb each other.
 PROCESSES_AT_ONCE = 16
 #: Cases that run together begin one after the other, so that their timers are not due together.
 STAGGER = 0.037
+_OWN_LOGGER = "conformance"
 _OF_EVERY_NODE = ("/rosout", "/parameter_events")
 
 
@@ -119,11 +121,11 @@ def _spin(process: Process, nodes: list[Node]) -> None:
     executor.spin()
 
 
-def _run_process(process: Process, connection: Connection) -> None:
+def _run_process(number: int, process: Process, connection: Connection) -> None:
     """Run one process of a case; what its nodes write goes to the journal's file."""
     nodes: list[Node] = []
     # The first log line of a process takes 13 ms of a processor, and 0.1 s of a busy machine.
-    get_logger("conformance").info("the first line")
+    get_logger(_OWN_LOGGER).info("the first line")
     if process.main is None:
         rclpy.init(args=[])
         if process.start:
@@ -143,7 +145,7 @@ def _run_process(process: Process, connection: Connection) -> None:
     connection.send(time.monotonic() - zero - process.start)
     if process.main is not None:
         sys.argv = ["main"]
-        process.main()
+        run_main(number, process.main)
         return
     if process.start:
         nodes = [make() for make in process.nodes]
@@ -168,11 +170,11 @@ def _end_with_parent() -> None:
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)
 
 
-def _fork(process: Process, domain: int, folder: Path) -> Child:
-    """Fork a process of a case."""
+def _fork(number: int, process: Process, domain: int, folder: Path) -> Child:
+    """Fork a process of a case, the first of which has number 0."""
     ours, theirs = Pipe()
-    number = len(list(folder.iterdir()))
-    journal, stderr = folder / f"{number}.journal", folder / f"{number}.stderr"
+    name = len(list(folder.iterdir()))
+    journal, stderr = folder / f"{name}.journal", folder / f"{name}.stderr"
     journal.touch()
     stderr.touch()
     pid = os.fork()
@@ -186,7 +188,7 @@ def _fork(process: Process, domain: int, folder: Path) -> Child:
     JOURNAL.file = os.open(journal, os.O_WRONLY | os.O_APPEND)
     end = ""
     try:
-        _run_process(process, theirs)
+        _run_process(number, process, theirs)
     except BaseException as error:
         traceback.print_exc()
         end = traceback.format_exception_only(type(error), error)[-1].strip()
@@ -223,7 +225,20 @@ def _entries(case: Case, children: Sequence[Child], zero_ns: int) -> dict[str, A
                 entries.append([seconds, node, text])
             else:
                 ends.append([number, seconds, text])
+        if case.logs:
+            entries += [line for line in _log_lines(child, zero_ns) if line[0] <= case.seconds]
     return {"entries": sorted(entries, key=lambda entry: entry[0]), "ends": ends}
+
+
+def _log_lines(child: Child, zero_ns: int) -> Iterator[list[Any]]:
+    """Yield what the loggers of a process wrote: time, name, and level and text.
+
+    What the middleware says of its own settings, and this program, is left out.
+    """
+    for line in LOG.finditer(child.stderr.read_text()):
+        if line["node"] != _OWN_LOGGER and not line["node"].startswith("rmw_"):
+            seconds = round(float(line["stamp"]) * 1e9 - zero_ns) / 1e9
+            yield [seconds, f"log {line['node']}", f"{line['level']} {line['text']}"]
 
 
 def _run_wave(wave: list[tuple[Case, int]], folder: Path, watch: Watch) -> dict[str, Any]:
@@ -231,8 +246,8 @@ def _run_wave(wave: list[tuple[Case, int]], folder: Path, watch: Watch) -> dict[
     children: dict[str, list[Child]] = {case.name: [] for case, _ in wave}
     try:
         for case, domain in wave:
-            for process in case.processes:
-                children[case.name].append(_fork(process, domain, folder))
+            for number, process in enumerate(case.processes):
+                children[case.name].append(_fork(number, process, domain, folder))
         return _run_forked(wave, children, watch)
     finally:
         _end([child for each in children.values() for child in each])

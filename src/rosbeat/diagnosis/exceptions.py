@@ -947,7 +947,7 @@ _NAME_RULES: tuple[Rule, ...] = (
         "A method of the class has a name that every node already uses, such as clients, "
         "services or timers.",
         "Give the method another name, in its def line and wherever you pass it.",
-        when=lambda fault, _: fault.callback in ("add", "run")),
+        when=lambda fault, _: fault.callback in ("add", "run", "spin")),
     Row("name-taken",
         r"'method' object does not support the context manager protocol|: __enter__$",
         "A method of the class is called handle, but every node already has an attribute of that "

@@ -17,6 +17,7 @@ waits (`time.sleep`, a service call, its own `spin`) suspends its own thread onl
 from __future__ import annotations
 
 import contextvars
+from asyncio import events
 from _thread import get_ident
 from collections import deque
 from collections.abc import Callable
@@ -123,6 +124,8 @@ class VirtualTime(Switchboard):
         # Executors that wait: all, and by the key of what wakes them.
         self._set_waits: list[Wait] = []
         self._waits_by_key: dict[int, list[Wait]] = {}
+        # Ordinary clients of the services that an action is made of: nobody tells of an answer.
+        self._action_clients: list[Entry] = []
         self._entities_changed = False
         self._changes = 0
         self._end = 0
@@ -141,7 +144,7 @@ class VirtualTime(Switchboard):
         now = [
             WaitRecord(call.wait.began_ns, self.now, call.node, call.name, call.wait.reason)
             for call in self.suspended
-            if call.wait and not call.idle and call.wait.began_ns < self.now
+            if call.wait and call.wait.began_ns < self.now and _is_told(call)
         ]
         return tuple(sorted([*self._waits, *now], key=lambda record: record.time_ns))
 
@@ -153,6 +156,8 @@ class VirtualTime(Switchboard):
                 self.schedule.add_timer(entry, self.now)
         elif entry.take is not None:
             self._listeners.setdefault((entry.kind, entry.name), []).append(entry)
+            if entry.kind == "client" and "/_action/" in entry.name:
+                self._action_clients.append(entry)
         if not is_plain(entry):
             self.hand_over(entry.state.process)
         elif entry.kind != "timer":
@@ -164,6 +169,8 @@ class VirtualTime(Switchboard):
         listeners = self._listeners.get((entry.kind, entry.name), [])
         if entry in listeners:
             listeners.remove(entry)
+        if entry in self._action_clients:
+            self._action_clients.remove(entry)
         if entry.state.process.pending.pop(entry, None) is not None:
             entry.state.process.refresh()
 
@@ -221,6 +228,8 @@ class VirtualTime(Switchboard):
         for wait in self._set_waits:
             if wait.has_waitables:
                 self.wake(wait)
+        for client in self._action_clients:
+            self._hold(client)
 
     def look_at(self, time_ns: int) -> None:
         """Let executors look at their waitables at a time, in nanoseconds of virtual time."""
@@ -281,6 +290,9 @@ class VirtualTime(Switchboard):
         self._enter_thread()
         self._end, self._done, self._ends_idle = end, done, ends_idle
         caller, self.current = self.current, None
+        # A kernel runs cells in an event loop; a callback on a robot is in none.
+        loop = events._get_running_loop()
+        events._set_running_loop(None)
         token = _BOARD.set(self)
         self._main, self._variables = getcurrent(), contextvars.copy_context()
         self.hidden_event()  # the cell may have sent something
@@ -298,6 +310,7 @@ class VirtualTime(Switchboard):
         finally:
             self.running = False
             _BOARD.reset(token)
+            events._set_running_loop(loop)
             self.current = caller
 
     # Waiting.
@@ -436,7 +449,7 @@ class VirtualTime(Switchboard):
             process.refresh()
 
     def _call_resumed(self, call: Call, wait: Wait) -> None:
-        if self.now > wait.began_ns and not call.idle and wait.reason not in _IDLE:
+        if self.now > wait.began_ns and wait.reason not in _IDLE and _is_told(call):
             self._waits.append(
                 WaitRecord(wait.began_ns, self.now, call.node, call.name, wait.reason)
             )
@@ -528,7 +541,7 @@ class VirtualTime(Switchboard):
         is_plain_process = (
             not isinstance(executor, MultiThreadedExecutor)
             and not process.actions
-            and not any(_has_own_waitables(state) for state in process.states)
+            and all(map(_is_plain_node, process.states))
             and all(map(is_plain, entries))
         )
         if is_plain_process and not process.is_handed_over:
@@ -576,7 +589,7 @@ class VirtualTime(Switchboard):
                 raise
             except BaseException as error:
                 failure, process.failure = process.failure, None
-                state, name = None, "a task"
+                state, name = None, "spin"  # what no callback has raised
                 if failure is not None and failure[0] is error:
                     state, name = failure[1].state, failure[1].name
                 self._core.callback_raised(state or process.states[0], name, error)
@@ -814,7 +827,7 @@ class VirtualTime(Switchboard):
             if not waiting:
                 process.has_tasks = False
                 self._catch_up(process)
-                continue
+                return True  # what has come meanwhile has its turn now
             task = waiting[0] if HAS_OLDEST_TASK_FIRST else waiting[-1]
             tasks.appendleft(process)
             self._chain.turn(lambda: [state.name for state in process.states])
@@ -945,16 +958,28 @@ class VirtualTime(Switchboard):
         self._core.callback_raised(call.state, name, error)
 
 
+def _is_told(call: Call) -> bool:
+    """Return whether a wait of a call holds something up: a callback, or a program."""
+    return not call.idle and (call.label is None or call.label.kind != "thread")
+
+
 def is_plain(entry: Entry) -> bool:
     """Return whether the engine may take the work of an entity directly."""
     callback = getattr(entry.entity, "callback", None)
     return not iscoroutinefunction(callback) and (entry.kind == "event" or has_known_group(entry.entity))
 
 
-def _has_own_waitables(state: NodeState) -> bool:
+#: What an executor asks a node for.
+_ASKED = ("subscriptions", "timers", "clients", "services", "guards", "waitables")
+
+
+def _is_plain_node(state: NodeState) -> bool:
+    """Return whether an executor finds nothing in a node but what the engine can take directly."""
     node = state.node
+    if any(getattr(type(node), name) is not getattr(Node, name) for name in _ASKED):
+        return False  # its class has a method of that name, say: rclpy says what comes of that
     own = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
-    return own or any(True for _ in node.guards)
+    return not own and not any(True for _ in node.guards)
 
 
 def _can_end(wait: Wait) -> bool:

@@ -6,9 +6,11 @@ intercept publishers and clients; `logs` receives the log lines. The recorder st
 
 from __future__ import annotations
 
+import inspect
 import sys
 from array import array
 from collections import Counter
+from contextlib import suppress
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, partial, wraps
@@ -510,6 +512,8 @@ def in_kernel() -> bool:
 
 
 def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
+    signature = inspect.signature(original)
+
     @wraps(original)
     def create(node: Node, *args: Any, **kwargs: Any) -> Entity:  # noqa: ANN401 - passed on
         core = core_of(node)
@@ -518,12 +522,22 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
                 return original(node, *args, **kwargs)
             _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
             core.entity_begins(node)
-            if kind == "subscription":
-                _refuse_second_type(node, core, *args, **kwargs)
+            full = ""
+            if kind in ("publisher", "subscription"):
+                bound = signature.bind_partial(node, *args, **kwargs).arguments
+                channel = _channel_of_type(
+                    node, core, kind, bound.get("msg_type"), bound.get("topic")
+                )
+                if channel is not None:
+                    full, bound["topic"] = channel
+                    args, kwargs = (), {key: bound[key] for key in bound if key != "self"}
+                    kwargs.update(kwargs.pop("kwargs", {}))
             if core.counts_limits:
                 entity = make_stretched(partial(original, node), kind, args, kwargs)
             else:
                 entity = original(node, *args, **kwargs)
+            if full:
+                _renamed(entity, full)
         core.entity_made(node, kind, entity)
         return entity
 
@@ -541,37 +555,55 @@ def _refuse_a_message(call: str, kind: object) -> None:
         )
 
 
-def _refuse_second_type(
-    node: Node,
-    core: SessionCore,
-    msg_type: object = None,
-    topic: object = None,
-    *_: object,
-    **__: object,
-) -> None:
-    """Refuse a subscription to a topic that a node of the session uses with another type.
+def _channel_of_type(
+    node: Node, core: SessionCore, kind: str, msg_type: object, topic: object
+) -> tuple[str, str] | None:
+    """Return the full name of a topic that exists with another type, and the name of a channel.
 
-    The middleware would refuse it as well, and rcl would then fail to clean up: it prints ten lines
-    on file descriptor 2 and loses the reason.
+    On a robot, two processes may use one topic with two types: both run, and are not connected.
+    The nodes of a session share a participant, which knows one type for each topic. So each further
+    type gets a channel of its own, whose hidden name nobody sees.
 
     Raises:
-        RCLError: As for a publisher, where the reason is not lost.
+        RCLError: If a node of the same process uses the topic with another type, as on a robot; on
+            a page also if any other node does. The middleware would refuse it as well, and rcl
+            would then fail to clean up: it prints ten lines on file descriptor 2.
     """
     if not (isinstance(msg_type, type) and is_message_class(msg_type) and isinstance(topic, str)):
-        return  # rclpy says so itself
+        return None  # rclpy says so itself
     try:
-        topic = node.resolve_topic_name(topic)
+        full = node.resolve_topic_name(topic)
     except (InvalidTopicNameException, rclpy_implementation.RCLError):
-        return  # rclpy says so itself, with the name
+        return None  # rclpy says so itself, with the name
+    own = core.state_of(node)
+    is_separate = core.has_separate_types
     for state in core.states():
+        if is_separate and own is not None and state.process is not own.process:
+            continue
         for end in (*state.node.publishers, *state.node.subscriptions):
-            if end.topic_name == topic and end.msg_type is not msg_type:
-                package = msg_type.__module__.partition(".")[0]
-                raise rclpy_implementation.RCLError(
-                    "Failed to create subscription: create_subscription() called for existing "
-                    f"topic name rt{topic} with incompatible type "
-                    f"{package}::msg::dds_::{msg_type.__name__}_"
-                )
+            with suppress(InvalidHandle):  # destroyed, and not by its node
+                if end.topic_name == full and end.msg_type is not msg_type:
+                    raise _second_type(kind, full, msg_type)
+    if not is_separate or core.topic_types.setdefault(full, msg_type) is msg_type:
+        return None
+    return full, f"{full}/_{type_name(msg_type).replace('/', '_')}"
+
+
+def _second_type(kind: str, topic: str, msg_type: type) -> Exception:
+    package = msg_type.__module__.partition(".")[0]
+    error: Exception = rclpy_implementation.RCLError(
+        f"Failed to create {kind}: create_{kind}() called for existing "
+        f"topic name rt{topic} with incompatible type "
+        f"{package}::msg::dds_::{msg_type.__name__}_"
+    )
+    return error
+
+
+def _renamed(endpoint: Any, topic: str) -> Any:  # noqa: ANN401 - a publisher or a subscription
+    """Let an endpoint say that it is one of a topic, whatever its channel is called."""
+    kind = type(endpoint)
+    endpoint.__class__ = type(kind.__name__, (kind,), {"topic_name": property(lambda _: topic)})
+    return endpoint
 
 
 def _install() -> None:

@@ -356,6 +356,8 @@ class _Run:
         self._seed, self._end = seed, duration_ns(seconds)
         self._session = Session(seed=seed)
         self._core = self._session._core
+        # A second type for a topic is a slip of an answer, and is named.
+        self._core.has_separate_types = False
         self._steps = Steps(self._session, steps)
         self._deadline = Deadline(deadline, self._note_expiry, self._gets_on)
         self._took = 0.0  # seconds until the time was up

@@ -95,6 +95,9 @@ class SessionCore:
         start: How the node that is being created is started.
         replaces_nodes: Whether a new node takes the place of one of the same name, as on a page,
             where a cell is run again. On a robot both run.
+        has_separate_types: Whether two processes may use one topic with two types, as on a robot. A
+            page refuses the second one, and says so.
+        topic_types: The first type of each topic.
         makers: The factory of each node, and how the node was started.
         next_number: Returns the position of a new entity in the order of creation.
     """
@@ -110,6 +113,8 @@ class SessionCore:
         self._entries: dict[Any, Entry] = {}
         self._keys: dict[int, Entry] = {}
         self.replaces_nodes = False
+        self.has_separate_types = domain_id is None
+        self.topic_types: dict[str, type] = {}
         # A destroyed node cannot say its name, and a destroyed action stays in the graph.
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
         self.action_ends: WeakSet[Any] = WeakSet()
@@ -217,15 +222,10 @@ class SessionCore:
 
     def _adopt_entities(self, state: NodeState) -> None:
         """Watch entities that no `create_*` of the node has made, as in a lifecycle node."""
-        node, known = state.node, self._entries
-        for kind, entities in (
-            ("subscription", node.subscriptions),
-            ("service", node.services),
-            ("client", node.clients),
-            ("timer", node.timers),
-        ):
-            for entity in entities:
-                if entity not in known:
+        for kind in ("subscription", "service", "client", "timer"):
+            # Not the node's own attribute, which its class may have replaced.
+            for entity in getattr(Node, f"{kind}s").fget(state.node):
+                if entity not in self._entries:
                     self._watch(state, kind, entity)
 
     def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
@@ -362,6 +362,8 @@ class SessionCore:
         """Tap what sends; run the callbacks of whatever has some."""
         state = self._states[node]
         self.virtual.entities_changed()
+        if kind in ("publisher", "subscription"):
+            entity.destroy = partial(self._destroyed_by_itself, state, entity, entity.destroy)
         if kind == "publisher":
             self._tap_publisher(state, entity)
         elif kind == "rate":
@@ -372,6 +374,15 @@ class SessionCore:
             entity._timer.callback = entity._event.set
         else:
             self._watch(state, kind, entity)
+
+    def _destroyed_by_itself(
+        self, state: NodeState, entity: Entity, destroy: Callable[[], None]
+    ) -> None:
+        """Let rclpy say what comes of an entity that is destroyed and still its node's."""
+        destroy()
+        with suppress(InvalidHandle):  # the node itself was destroyed
+            if any(one is entity for one in (*state.node.publishers, *state.node.subscriptions)):
+                self.virtual.hand_over(state.process)
 
     def waitable_made(self, node: Node) -> None:
         """Let rclpy's own executor run a node that has guard conditions or waitables."""
@@ -385,7 +396,7 @@ class SessionCore:
             return
         state.spinning, state.ended = False, True
         self.virtual.forget(state)
-        if node.executor is not None:
+        if isinstance(node.executor, Executor):
             _end_coroutines(node.executor, state)
         for entry in state.entries:
             self._entries.pop(entry.entity, None)
@@ -769,7 +780,11 @@ class SessionCore:
         def wait(timeout_sec: float | None = None) -> bool:
             # In the code of a node rclpy's own way sleeps; in a cell the nodes have to run.
             if self.live is not None or self.virtual.in_callback:
-                return bool(wait_for_service(timeout_sec))
+                began = self.virtual.now
+                is_ready = bool(wait_for_service(timeout_sec))
+                if not is_ready and self.live is None and self.virtual.now == began:
+                    self.virtual.polled()  # ROS was shut down, so that it does not wait any more
+                return is_ready
             return self.wait_until(client.service_is_ready, timeout_sec)
 
         client.call_async, client.call, client.wait_for_service = call_async, call, wait

@@ -12,6 +12,7 @@ program's own context has no nodes.
 
 from __future__ import annotations
 
+import ast
 import linecache
 import reprlib
 import signal
@@ -28,6 +29,7 @@ from weakref import WeakSet
 import rclpy.utilities
 from greenlet import GreenletExit
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
 from rosbeat.errors import SessionError
@@ -52,7 +54,7 @@ class SimulatedProgram:
 
     Args:
         core: The state of the session.
-        target: A file with a function `main`, or such a function.
+        target: A file with a function `main`, or without one, or such a function.
         arguments: Command-line arguments after the program's name.
 
     Attributes:
@@ -210,7 +212,7 @@ class SimulatedProgram:
             self.leave()
         if isinstance(error, GreenletExit):  # it was killed, or its session was closed
             for context in list(self.contexts):
-                Context.try_shutdown(context)
+                _shut_down(context)
             if self.returncode is None:  # else a signal has ended it, and has said so
                 self.returncode = -signal.SIGKILL
             return
@@ -228,6 +230,8 @@ class SimulatedProgram:
             found: Callable[[], Any] = self._target
             return found
         linecache.checkcache(str(self._target))
+        if not _has_main(self._target):
+            return self._run_script
         spec = spec_from_file_location(self._module, self._target)
         assert spec is not None
         assert spec.loader is not None
@@ -240,6 +244,14 @@ class SimulatedProgram:
             sys.modules.update(hidden)
         main: Callable[[], Any] = module.main
         return main
+
+    def _run_script(self) -> None:
+        """Run a file that has no function `main` from top to bottom, as `python3 FILE` does."""
+        assert isinstance(self._target, Path)
+        module = ModuleType("__main__")
+        module.__file__ = str(self._target)
+        code = compile(self._target.read_bytes(), self._target, "exec")
+        exec(code, vars(module))
 
     def _take_own_modules(self) -> dict[str, ModuleType]:
         """Take the program's modules out of `sys.modules`, and return them."""
@@ -313,8 +325,13 @@ class SimulatedProgram:
         for state in list(self._process.states):
             self.core.destroy(state)
         for context in list(self.contexts):
-            Context.try_shutdown(context)
+            _shut_down(context)
         self.core.console.program_ended(self)
+
+
+def _shut_down(context: Context) -> None:
+    with suppress(InvalidHandle):  # the program has destroyed it
+        Context.try_shutdown(context)
 
 
 def _keep_handler(number: int, handler: object) -> object:
@@ -346,6 +363,31 @@ def _checked_file(name: str) -> Path:
         "`ros.spawn` runs a program: a Python file with a function `main`.",
         "Check the name; it ends in `.py`, and a relative one begins at the current folder.",
     )
+
+
+def _has_main(file: Path) -> bool:
+    """Return whether a file has a function `main`, or a name that may be one; else it is a script.
+
+    A file that Python cannot read has one: importing it says what is wrong.
+    """
+    try:
+        tree = ast.parse(file.read_bytes())
+    except (SyntaxError, ValueError):
+        return True
+    return any("main" in _names_of(statement) for statement in tree.body)
+
+
+def _names_of(statement: ast.stmt) -> set[str]:
+    """Return the names that a statement of a module defines."""
+    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return {statement.name}
+    if isinstance(statement, ast.Import | ast.ImportFrom):
+        return {(alias.asname or alias.name).partition(".")[0] for alias in statement.names}
+    if isinstance(statement, ast.Assign):
+        return {name.id for name in statement.targets if isinstance(name, ast.Name)}
+    if isinstance(statement, ast.Try):
+        return {name for part in statement.body for name in _names_of(part)}
+    return set()
 
 
 def _root_of(file: Path) -> Path:

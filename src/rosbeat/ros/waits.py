@@ -131,9 +131,10 @@ class Wait:
     def is_for_good(self) -> bool:
         """Return whether nothing but an event of the simulation can end it.
 
-        The `spin` of a program waits for whatever comes, and is not meant.
+        The `spin` of a program waits for whatever comes, and is not meant; that of a callback is.
         """
-        return self.until_ns is None and self.call is not None and not self.call.idle
+        call = self.call
+        return self.until_ns is None and call is not None and not (call.idle and call.entry is None)
 
 
 def board_here() -> Switchboard | None:
