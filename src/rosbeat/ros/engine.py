@@ -803,11 +803,15 @@ class VirtualTime(Switchboard):
 
     def _run_pending(self, entry: Entry, depth: int) -> None:
         process = entry.state.process
-        if entry.kind == "timer":
-            self._fire(entry)
-        elif self._take(entry) and not entry.state.ended and process.is_direct:
-            process.pending.setdefault(entry, depth)  # there may be more
-            self._catch_up(process)
+        process.is_in_turn = True
+        try:
+            if entry.kind == "timer":
+                self._fire(entry)
+            elif self._take(entry) and not entry.state.ended and process.is_direct:
+                process.pending.setdefault(entry, depth)  # there may be more
+                self._catch_up(process)
+        finally:
+            process.is_in_turn = False
         process.refresh()
 
     def _run_one_task(self) -> bool:

@@ -181,6 +181,7 @@ class Process:
             entities whose queues may hold something.
         due: How many of its timers are due at this instant and have not run yet.
         has_tasks: Whether its executor may have tasks to run, while the engine takes its work.
+        is_in_turn: Whether the callback that runs has its turn in such a round.
         is_over: Whether it has ended, so that none of its code goes on.
         threads: How many threads of its own it has begun.
         failure: What a callback raised last, and the call, until an executor hands it on.
@@ -201,6 +202,7 @@ class Process:
         self.is_over = False
         self.threads = 0
         self.failure: tuple[BaseException, Call] | None = None
+        self.is_in_turn = False
         self._round: deque[Entry] = deque()
 
     @property
@@ -225,10 +227,11 @@ class Process:
     def begin_round(self, ready: list[Entry]) -> None:
         """Note what was ready together with a callback that begins to wait.
 
-        rclpy looks at everything, then handles what was ready, and only then looks again.
+        rclpy looks at everything, then handles what was ready, and only then looks again. A callback
+        that has its turn in a round is in the middle of one already.
         """
-        if not self._round:
-            self._round.extend(sorted([*ready, *self.pending], key=_place))
+        if not self.is_in_turn:
+            self._round = deque(sorted(ready, key=_place))
 
     def next_ready(self) -> Entry | None:
         """Return what the executor would take next, in the order of rclpy's wait set.

@@ -336,6 +336,14 @@ _ASK_AGAIN = {ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_AVAILABLE}
 _AT_ONCE = Duration()._duration_handle
 
 
+def invalid_context(what: str, file: str) -> Exception:
+    """Return the error of what uses a context that was shut down, in the words of rcl."""
+    error: Exception = rclpy_implementation.RCLError(
+        f"{what} context is invalid, at ./src/rcl/{file}:404"
+    )
+    return error
+
+
 class PublisherTap:
     """Listen to one publisher.
 
@@ -387,9 +395,7 @@ class PublisherTap:
         """Refuse further messages, as rclpy does when the publisher's context was shut down."""
 
         def publish(msg: Any) -> None:  # noqa: ANN401 - a message of any type
-            raise rclpy_implementation.RCLError(
-                "Failed to publish: publisher's context is invalid, at ./src/rcl/publisher.c:423"
-            )
+            raise invalid_context("Failed to publish: publisher's", "publisher.c")
 
         self._publisher.publish = publish
 
@@ -520,6 +526,8 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
         with asking(original.__name__, *args, **kwargs):
             if core is None:
                 return original(node, *args, **kwargs)
+            if not node._context.ok() and node._context is not core.context:
+                raise invalid_context(f"Failed to create {kind}: rcl node's", "node.c")
             _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
             core.entity_begins(node)
             full = ""

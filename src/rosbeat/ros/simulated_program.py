@@ -38,6 +38,7 @@ from rosbeat.ros.context import ProgramContext
 from rosbeat.ros.errors import note
 from rosbeat.ros.exception_origin import error_text, fault_of
 from rosbeat.ros.processes import Process
+from rosbeat.ros.recording import invalid_context
 from rosbeat.ros.waits import Call
 
 if TYPE_CHECKING:
@@ -186,11 +187,14 @@ class SimulatedProgram:
         sys.path[:] = path
 
     def shut_down(self, context: Context) -> None:
-        """Let the publishers of a context that was shut down fail from now on."""
+        """Let publishers and clients of a context that was shut down fail from now on."""
         for state in self._process.states:
             if state.node.context is context:
                 for tap in state.taps:
                     tap.close()
+                for entry in state.entries:
+                    if entry.kind == "client":
+                        entry.entity.service_is_ready = _no_service
 
     def install_handlers(self) -> None:
         """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
@@ -332,6 +336,10 @@ class SimulatedProgram:
 def _shut_down(context: Context) -> None:
     with suppress(InvalidHandle):  # the program has destroyed it
         Context.try_shutdown(context)
+
+
+def _no_service() -> bool:
+    raise invalid_context("failed to check service availability: rcl node's", "node.c")
 
 
 def _keep_handler(number: int, handler: object) -> object:
