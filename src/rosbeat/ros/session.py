@@ -205,7 +205,7 @@ class Session:
 
     @called_as('ros.spawn("sensor.py")')
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
-        """Start a program: a Python file with a function `main`, run unchanged in virtual time.
+        """Start a program: a Python file or a function, run unchanged in virtual time.
 
         It is a process of its own, as one that `ros2 run` starts, with its own default context and
         command line. It goes on whenever the session runs.
