@@ -201,6 +201,9 @@ ENDLESS = {
     "replaced handlers, then loop": doing(lambda node: (ignores_signals(node), loop())),
 }
 
+#: Those of them that wait for what only a thread could do, where there is none.
+DEADLOCKED = ("sleep in a thread's wait",)
+
 #: Those of them that do it in their constructor.
 AT_BIRTH = (
     "loop in the constructor",

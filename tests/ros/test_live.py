@@ -13,10 +13,10 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from nodes import SECOND, AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker, since_start
-from rosbeat.ros.clock import START
 from other_process import other_process
 from rosbeat import Session
 from rosbeat.errors import DurationError, SessionError
+from rosbeat.ros.clock import START
 from rosbeat.ros.context import Interrupts
 
 

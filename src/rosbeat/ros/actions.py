@@ -226,9 +226,7 @@ class ActionEnd:
                 return wait(goal)
         return self._result(method, send(goal))
 
-    def _wait_for_server(
-        self, wait: Callable[..., bool], timeout_sec: float | None = None
-    ) -> bool:
+    def _wait_for_server(self, wait: Callable[..., bool], timeout_sec: float | None = None) -> bool:
         client = self.entity
         if self._waits_by_itself():
             return bool(wait(timeout_sec))

@@ -135,7 +135,7 @@ class VirtualClock(Clock):
 
     def create_jump_callback(self, threshold: Any, **callbacks: Any) -> JumpHandle:  # noqa: ANN401 - rclpy's own
         """Create a handler for clock time jumps; see rclpy. Virtual time flows and never jumps."""
-        post = callbacks.get("post_callback")
+        post: Any = callbacks.get("post_callback")
 
         def told(jump: dict[str, Any]) -> None:
             post(TimeJump(jump["clock_change"], Duration(nanoseconds=jump["delta"])))
@@ -323,9 +323,7 @@ class VirtualNames:
         entry_of: Returns what the session knows of a subscription.
     """
 
-    def __init__(
-        self, virtual: VirtualTime, entry_of: Callable[[Any], Entry | None]
-    ) -> None:
+    def __init__(self, virtual: VirtualTime, entry_of: Callable[[Any], Entry | None]) -> None:
         self._virtual, self._entry_of = virtual, entry_of
         self._wait_for_message = message_waiting.wait_for_message
         self._real_sleep = time.sleep  # a test may have put something in its place
@@ -354,7 +352,7 @@ class VirtualNames:
             code: Classes and functions of nodes, in whose modules `from time import sleep` may
                 stand, and in the modules that these import.
         """
-        namespaces = [*map(vars, _LIBRARY), *_namespaces(code)]
+        namespaces = [*(module.__dict__ for module in _LIBRARY), *_namespaces(code)]
         with _in_place_of(self._places, namespaces):
             yield
 

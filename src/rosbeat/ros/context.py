@@ -159,8 +159,9 @@ class SessionContext(Context):
 class ProgramContext(Context):
     """Act as a context of a program that a session runs; see `simulated_program`.
 
-    It is the program's default one, or one that it makes itself with `Context()`. It is a real context, so that `init`, `ok` and `shutdown` behave as they do in a separate
-    process. The program's nodes are created in the session's context.
+    It is the program's default one, or one that it makes itself with `Context()`. It is a real
+    context, so that `init`, `ok` and `shutdown` behave as they do in a separate process. The
+    program's nodes are created in the session's context.
 
     Args:
         program: The program, which is notified of a shutdown; by default the one that runs.

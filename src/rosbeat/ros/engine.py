@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import contextvars
 from asyncio import events
-from _thread import get_ident
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
@@ -26,6 +25,7 @@ from dataclasses import dataclass
 from functools import partial
 from inspect import iscoroutine, iscoroutinefunction
 from typing import TYPE_CHECKING, Any, cast
+from weakref import WeakValueDictionary
 
 from greenlet import GreenletExit, getcurrent
 from rclpy.event_handler import EventHandler
@@ -35,7 +35,6 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.task import Task
 from rclpy.timer import Timer
-from weakref import WeakValueDictionary
 
 from rosbeat.errors import EndlessChainError
 from rosbeat.records import WaitRecord
@@ -482,7 +481,10 @@ class VirtualTime(Switchboard):
         return self._core.threads
 
     def observe(
-        self, entity: Any, node: Node, take: Callable[..., Any]  # noqa: ANN401 - any of rclpy's
+        self,
+        entity: Any,
+        node: Node,
+        take: Callable[..., Any],  # noqa: ANN401 - any of rclpy's
     ) -> tuple[Call, Callable[..., Any]]:
         """Return a call for the callback of an entity, and a `take` that records that it runs."""
         core, state = self._core, self._core.state_of(node)
@@ -834,7 +836,7 @@ class VirtualTime(Switchboard):
                 return True  # what has come meanwhile has its turn now
             task = waiting[0] if HAS_OLDEST_TASK_FIRST else waiting[-1]
             tasks.appendleft(process)
-            self._chain.turn(lambda: [state.name for state in process.states])
+            self._chain.turn(process.states)
             self._run_task(process, task)
             return True
         return False
@@ -902,7 +904,7 @@ class VirtualTime(Switchboard):
         try:
             with handle:
                 due = state.spinning and handle.is_timer_ready()
-                callback = call_timer(entry.entity) if due else None
+                callback = call_timer(entry.entity) if due else _do_nothing
         except InvalidHandle:
             return  # destroyed
         self.schedule.add_timer(entry, self.now)  # before the callback, which may wait for longer
@@ -967,10 +969,16 @@ def _is_told(call: Call) -> bool:
     return not call.idle and (call.label is None or call.label.kind != "thread")
 
 
+def _do_nothing() -> None:
+    """Stand in for the callback of a timer that is not due."""
+
+
 def is_plain(entry: Entry) -> bool:
     """Return whether the engine may take the work of an entity directly."""
     callback = getattr(entry.entity, "callback", None)
-    return not iscoroutinefunction(callback) and (entry.kind == "event" or has_known_group(entry.entity))
+    return not iscoroutinefunction(callback) and (
+        entry.kind == "event" or has_known_group(entry.entity)
+    )
 
 
 #: What an executor asks a node for.
@@ -1025,7 +1033,9 @@ def _take_by_us(entry: Entry, engine: VirtualTime, _: object) -> Callable[[], An
     return None if work is None else partial(await_or_execute, work[0], *work[1])
 
 
-def _events(context: Any, handlers: list[tuple[NodeState, EventHandler]]) -> list[tuple[NodeState, EventHandler]]:  # noqa: ANN401 - rclpy's context
+def _events(
+    context: Any, handlers: list[tuple[NodeState, EventHandler]]
+) -> list[tuple[NodeState, EventHandler]]:  # noqa: ANN401 - rclpy's context
     """Return the event handlers that have something to tell."""
     if not handlers:
         return []

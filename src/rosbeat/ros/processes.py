@@ -227,8 +227,8 @@ class Process:
     def begin_round(self, ready: list[Entry]) -> None:
         """Note what was ready together with a callback that begins to wait.
 
-        rclpy looks at everything, then handles what was ready, and only then looks again. A callback
-        that has its turn in a round is in the middle of one already.
+        rclpy looks at everything, then handles what was ready, and only then looks again. A
+        callback that has its turn in a round is in the middle of one already.
         """
         if not self.is_in_turn:
             self._round = deque(sorted(ready, key=_place))

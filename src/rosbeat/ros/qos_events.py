@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
+from _thread import get_ident
 from bisect import bisect_left
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from _thread import get_ident
 from typing import TYPE_CHECKING, Any
 
 from rclpy.duration import Duration, Infinite

@@ -10,8 +10,8 @@ import inspect
 import sys
 from array import array
 from collections import Counter
-from contextlib import suppress
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module

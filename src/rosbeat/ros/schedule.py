@@ -6,7 +6,7 @@ This module knows neither rclpy nor greenlets. It orders whatever has a time, an
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from heapq import heappop, heappush
 from itertools import count
 from typing import Protocol
@@ -35,6 +35,16 @@ class Periodic(Timed, Protocol):
 
     def remaining_ns(self) -> int | None:
         """Return the nanoseconds until it is due; None while it is canceled or nobody spins it."""
+
+
+class Named(Protocol):
+    """Describe what has a name.
+
+    Attributes:
+        name: The name of a node.
+    """
+
+    name: str
 
 
 class Schedule:
@@ -94,7 +104,9 @@ class Schedule:
         """Return the first item; `next_due` has just been asked."""
         return self._heap[0][3]
 
-    def rebuild(self, timers: Iterable[Periodic], sleepers: Iterable[tuple[Timed, int]], now: int) -> None:
+    def rebuild(
+        self, timers: Iterable[Periodic], sleepers: Iterable[tuple[Timed, int]], now: int
+    ) -> None:
         """Forget everything, and begin with these timers and sleepers."""
         self._heap, self._aside = [], []
         for timer in timers:
@@ -168,8 +180,8 @@ class ChainGuard:
                 "Wait with a timeout above zero, and leave the loop when `rclpy.ok()` is False.",
             )
 
-    def turn(self, names: Callable[[], Iterable[str]]) -> None:
-        """Check a task that takes another step.
+    def turn(self, nodes: Iterable[Named]) -> None:
+        """Check a task that takes another step, in the process of these nodes.
 
         Raises:
             EndlessChainError: If tasks take steps without end at one instant.
@@ -177,7 +189,7 @@ class ChainGuard:
         self._turns += 1
         if self._turns > MOST_TURNS:
             self._turns = 0
-            listed = list(dict.fromkeys(names()))
+            listed = list(dict.fromkeys(node.name for node in nodes))
             raise EndlessChainError(
                 f"Callbacks wait for each other endlessly: {', '.join(listed)}.",
                 "Each callback continues whenever another one has run, so virtual time cannot "

@@ -5,13 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import wraps
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast, overload
 from weakref import finalize
 
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 
 from rosbeat.domains import LAST_DOMAIN

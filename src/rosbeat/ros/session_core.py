@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 import threading
-from _thread import get_ident
 import time
+from _thread import get_ident
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
 from functools import partial
@@ -900,7 +900,7 @@ class SessionCore:
     def _wait_for_answer(
         self, client: Client, future: Future, timeout_sec: float | None
     ) -> Message:
-        """Do in a cell what `client.call` does when it has sent its request (rclpy, `client.py`)."""
+        """Do in a cell what `client.call` does after its request (rclpy, `client.py`)."""
         self.wait("client.call", future.done, timeout_sec)
         if not future.done():
             client.remove_pending_request(future)

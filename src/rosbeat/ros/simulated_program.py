@@ -234,7 +234,7 @@ class SimulatedProgram:
             found: Callable[[], Any] = self._target
             return found
         linecache.checkcache(str(self._target))
-        if not _has_main(self._target):
+        if _is_script(self._target):
             return self._run_script
         spec = spec_from_file_location(self._module, self._target)
         assert spec is not None
@@ -373,16 +373,24 @@ def _checked_file(name: str) -> Path:
     )
 
 
-def _has_main(file: Path) -> bool:
-    """Return whether a file has a function `main`, or a name that may be one; else it is a script.
+def _is_script(file: Path) -> bool:
+    """Return whether a file has no function `main`, and starts ROS from top to bottom.
 
-    A file that Python cannot read has one: importing it says what is wrong.
+    Of any other file without `main`, importing it says that `main` is missing, as `ros2 run` does.
     """
     try:
         tree = ast.parse(file.read_bytes())
     except (SyntaxError, ValueError):
-        return True
-    return any("main" in _names_of(statement) for statement in tree.body)
+        return False  # importing it says what is wrong
+    if any("main" in _names_of(statement) for statement in tree.body):
+        return False
+    definitions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+    rest = [part for part in tree.body if not isinstance(part, definitions)]
+    nodes = [node for statement in rest for node in ast.walk(statement)]
+    is_guarded = any(isinstance(node, ast.Name) and node.id == "__name__" for node in nodes)
+    return is_guarded or any(
+        isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "init" for node in nodes
+    )
 
 
 def _names_of(statement: ast.stmt) -> set[str]:

@@ -7,7 +7,6 @@ suspends its simulated thread, and the engine wakes it when something has come o
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,6 @@ import rclpy
 import rclpy.executors
 from rclpy import wait_for_message as message_waiting
 from rclpy.event_handler import EventHandler
-from rclpy.exceptions import InvalidHandle
 from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -25,10 +23,9 @@ from rclpy.task import Task
 from rclpy.timer import Timer
 
 from rosbeat.ros.engine import VirtualTime
-from rosbeat.ros.processes import Entry, Process, callback_name
+from rosbeat.ros.processes import Process, callback_name
 from rosbeat.ros.qos_events import TakenEarly, event_name, topic_of
 from rosbeat.ros.recording import core_of
-from rosbeat.ros.taking import take_message
 from rosbeat.ros.waits import Call, board_here
 
 if TYPE_CHECKING:
@@ -45,7 +42,7 @@ def _engine_here() -> VirtualTime | None:
     return board if isinstance(board, VirtualTime) and not board.is_live else None
 
 
-class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclpy is untyped
+class VirtualWaitSet(rclpy_implementation.WaitSet):
     """Stand in for the wait set of an executor; outside of simulated code, be an ordinary one."""
 
     def __init__(self, *arguments: Any) -> None:  # noqa: ANN401 - rclpy's own
@@ -105,7 +102,7 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):  # type: ignore[misc] # rclp
     @property
     def has_waitables(self) -> bool:
         """Return whether waitables, such as actions, have added entities of theirs."""
-        return self._counts > sum(map(len, self._handles.values()))
+        return bool(self._counts > sum(map(len, self._handles.values())))
 
     def keys(self) -> list[int]:
         """Return the keys of what wakes this wait."""
@@ -283,7 +280,10 @@ def _in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
         states = [(core.state_of(node), node) for node in nodes]
         known = [state for state, _ in states if state and not (state.paused or state.ended)]
         known.sort(key=lambda state: state.number)
-        return [*(state.node for state in known), *(node for state, node in states if state is None)]
+        return [
+            *(state.node for state in known),
+            *(node for state, node in states if state is None),
+        ]
 
     return get_nodes
 

@@ -52,7 +52,7 @@ class Call:
         broken: How often it was told to end from outside; above 0, it must not wait again.
         hint: What its next wait is for, and the entity of its own process that has to run first.
         ident: The number of its simulated thread; 0 for the main thread of a process.
-        polled: When it has last looked at its queues without waiting, and how often at that instant.
+        polled: When it last looked at its queues without waiting, and how often at that instant.
         reads: The same of the clocks of Python.
         turns: When it has last let others go first, and how often at that instant.
         changes: How many changes of entities there were when it last looked for events.
@@ -442,7 +442,9 @@ class Switchboard:
         if get_ident() == self.thread:
             return
         if self.running or self.suspended:
-            waits = "".join(f", where {call.name} of {call.node} waits" for call in self.suspended[:1])
+            waits = "".join(
+                f", where {call.name} of {call.node} waits" for call in self.suspended[:1]
+            )
             raise SessionError(
                 f"This session runs in another thread{waits}.",
                 "A callback always continues in the thread in which it started.",
