@@ -97,6 +97,32 @@ MACHINE = re.compile(
     r"red/"
 )
 
+#: The floors of `ros`, from the ground up: the modules of each, and which of rclpy and greenlet
+#: they may import. `docs/architecture.md` says what each floor is for.
+FLOORS = (
+    ({"schedule", "arguments", "distribution"}, set()),
+    ({"waits", "threads"}, {"greenlet"}),
+    (
+        {
+            *("differences", "errors", "exception_origin", "isolation", "logs", "processes"),
+            *("taking", "qos_events", "recording", "context", "launch", "graph"),
+        },
+        {"rclpy"},
+    ),
+    ({"engine"}, {"rclpy", "greenlet"}),
+    (
+        {"clock", "wait_set", "actions", "spinning", "simulated_program", "live"},
+        {"rclpy", "greenlet"},
+    ),
+    (
+        {
+            *("session_core", "session", "scenario", "tester", "programs", "listening"),
+            "test_nodes",
+        },
+        {"rclpy", "greenlet"},
+    ),
+)
+
 #: First words of a docstring that are no verbs in the imperative. A word that is a noun and a verb,
 #: such as `Name`, passes.
 NOT_A_VERB = {
@@ -219,6 +245,34 @@ def cycles(sources):
             del left[module]
 
 
+def floor_of(module):
+    """The number of a module's floor in `ros`; None for the package itself, and elsewhere."""
+    parts = module.split(".")
+    if parts[:2] != ["rosbeat", "ros"] or len(parts) < 3:
+        return None
+    return next((k for k, (modules, _) in enumerate(FLOORS) if parts[2] in modules), -1)
+
+
+def wrong_floors(sources):
+    """What a module of `ros` imports, when a program runs, that is above or not for its floor."""
+    said = []
+    for module, source in sources.items():
+        floor = floor_of(module)
+        if floor is None:
+            continue
+        if floor < 0:
+            said.append(f"{module} has no floor in FLOORS")
+            continue
+        _, known = FLOORS[floor]
+        for name in imports(source, sources, with_types=False):
+            top = name.split(".")[0]
+            other = "rclpy" if ROS.fullmatch(top) else top
+            above = floor_of(name)
+            if (above is not None and above > floor) or other in {"rclpy", "greenlet"} - known:
+                said.append(f"{module} imports {name}")
+    return said
+
+
 def public_things(tree, prefix=""):
     """Public classes and functions, methods of public classes included, with their names."""
     for node in tree.body:
@@ -333,7 +387,7 @@ def tracked():
 # The rules hold.
 
 RULES = [wrong_directions, unknown_rooms, rclpy_outside_ros, foreign_imports, cycles,
-         not_a_verb, unnamed_errors, unexplained, words_of_pages]  # fmt: skip
+         wrong_floors, not_a_verb, unnamed_errors, unexplained, words_of_pages]  # fmt: skip
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -414,6 +468,13 @@ BAD = {
     "cli imports messages": (rclpy_outside_ros, "rosbeat.cli", "from std_msgs.msg import Float32"),
     "workspace imports rclpy": (rclpy_outside_ros, "rosbeat.workspace.a", "import rclpy as r"),
     "records import numpy": (foreign_imports, "rosbeat.records", "import numpy"),
+    "the schedule imports the engine": (wrong_floors, "rosbeat.ros.schedule",
+                                      "from rosbeat.ros.engine import VirtualTime"),
+    "the schedule imports greenlets": (wrong_floors, "rosbeat.ros.schedule",
+                                       "def f():\n from greenlet import getcurrent"),
+    "waits import messages": (wrong_floors, "rosbeat.ros.waits", "import std_msgs.msg"),
+    "nodes import greenlets": (wrong_floors, "rosbeat.ros.processes", "import greenlet"),
+    "a module without a floor": (wrong_floors, "rosbeat.ros.cellar", ""),
     "a noun phrase": (not_a_verb, "rosbeat.a", 'class A:\n """A bag of words."""'),
     "no reason": (unexplained, "rosbeat.a", "import a  # noqa: F401"),
     "no reason, types": (unexplained, "rosbeat.a", "a = b()  # type: ignore[misc, unused-ignore]"),
@@ -435,6 +496,19 @@ BAD = {
 def test_the_rule_notices(case):
     rule, module, source = BAD[case]
     assert rule({module: source}) != []
+
+
+def test_a_floor_may_name_types_from_above():
+    for_types = "if TYPE_CHECKING:\n    from rosbeat.ros.processes import Process"
+    assert wrong_floors({"rosbeat.ros.waits": f"from greenlet import greenlet\n{for_types}"}) == []
+
+
+def test_each_floor_is_in_the_table_of_the_document():
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    part = text.partition("## The floors of `ros/`\n")[2].partition("\n## ")[0]
+    rows = [line.split("|")[2] for line in part.splitlines() if line.startswith("|")][2:]
+    named = [set(re.findall(r"`(\w+)`", row)) for row in reversed(rows)]
+    assert named == [modules for modules, _ in FLOORS]
 
 
 def test_a_circle_is_noticed_and_one_for_types_is_not():

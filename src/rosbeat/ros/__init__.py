@@ -1,20 +1,25 @@
 """Run real ROS nodes in virtual time or live, and record their behavior.
 
-Only this folder imports rclpy. `docs/simulation.md` explains how virtual time works.
+Only this folder imports rclpy. `docs/simulation.md` explains how virtual time works, and
+`docs/architecture.md` has the floors: who imports whom.
 
 - The session: `session` (the public interface), `session_core` (its state), `errors` (its
   refusals, and what it prints).
-- Virtual time: `virtual_time` (the loop), `processes` (nodes, their entities, simulated processes),
-  `wait_set` (what goes through rclpy's own wait set), `clock` (the nodes' clocks, and functions
-  that block), `spinning` (rclpy's `spin` functions), `simulated_program` (a file with `main()`).
+- The engine: `schedule` (what is due when), `waits` (suspending and resuming code, with
+  greenlets), `engine` (the loop), `taking` (what has arrived, straight from rclpy's handles),
+  `processes` (nodes, their entities, simulated processes).
+- What code of nodes meets in the place of the operating system: `wait_set` (where rclpy's own
+  executors wait), `threads` (threads, locks, queues), `clock` (clocks, and calls that wait).
+- Programs: `simulated_program` (a file with `main()`), `context` (contexts, interrupts,
+  `rclpy.init`), `arguments` (of a command line), `spinning` (`rclpy.spin` in a page).
 - Live mode: `live`, against the wall clock.
-- Parts of nodes: `launch` (starting a node), `context` (rclpy's default context), `qos_events`
-  (deadlines and lifespans by the session's clock), `actions`.
+- Parts of nodes: `launch` (starting a node), `qos_events` (deadlines and lifespans by the
+  session's clock), `actions`.
 - The distribution of ROS: `distribution` (which rclpy is refused), `differences` (what differs
   between the supported ones).
 - Observation: `recording` (taps, hooks, recorder), `exception_origin` (from an exception to a
   line), `graph` (nodes and endpoints, in other processes too), `listening` (their messages),
-  `logs` (the log lines of a session's code).
+  `logs` (the log lines of a session's code, and the levels of each process).
 - Running an answer: `isolation` (with a deadline and seeded random numbers), `scenario` (`observe`
   and the steps of a run), `test_nodes` (nodes of the course's own), `programs` (operating-system
   processes).

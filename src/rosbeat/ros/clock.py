@@ -336,7 +336,7 @@ class VirtualNames:
         self._places: dict[Any, object] = {
             self._real_sleep: self.sleep,
             threading.Lock: threads.make_lock,
-            threading._allocate_lock: threads.make_lock,  # type: ignore[attr-defined]
+            threading._allocate_lock: threads.make_lock,  # type: ignore[attr-defined] # private
             threading.RLock: threads.make_reentrant_lock,
             queue.SimpleQueue: threads.make_simple_queue,
             threading.get_ident: threads.get_ident,

@@ -179,7 +179,7 @@ class Deadline:
     """Track the deadline of one publisher or subscription.
 
     Attributes:
-        entry: The executor's entry for its callback.
+        entry: The engine's entry for its callback.
         due: When it will be missed next, in nanoseconds; None before the first message.
     """
 
@@ -208,7 +208,7 @@ class Deadline:
         self._untold += 1
 
     def take(self, _: Entry, __: object) -> Work | None:
-        """Return the callback with the misses that it has not been told of; see `entities`."""
+        """Return the callback with the misses that it has not been told of; see `taking`."""
         if not self._untold:
             return None
         info = self._info()

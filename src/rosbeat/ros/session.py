@@ -135,9 +135,9 @@ class Session:
         One node is a process of its own, as `ros2 run` starts it. Several nodes share one process
         and its executor: while a callback of one of them runs, or sleeps, the others wait.
 
-        A node of the same name that runs in this session is replaced. `name` and the arguments
-        after it do what `ros2 run` does behind `--ros-args`, with `-r` and `-p`; the class stays as
-        it is.
+        On a page, a node of the same name that runs in this session is replaced; in a test both
+        run. `name` and the arguments after it do what `ros2 run` does behind `--ros-args`, with
+        `-r` and `-p`; the class stays as it is.
 
         Args:
             nodes: Node classes, functions that return a node, or nodes made in this session.
@@ -201,7 +201,7 @@ class Session:
 
     @called_as('ros.spawn("sensor.py")')
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
-        """Start a program: a Python file with a function `main`, run unchanged in virtual time.
+        """Start a program: a Python file or a function, run unchanged in virtual time.
 
         It is a process of its own, as one that `ros2 run` starts, with its own default context and
         command line. It goes on whenever the session runs.

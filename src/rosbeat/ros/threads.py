@@ -109,8 +109,8 @@ def make_reentrant_lock() -> Any:  # noqa: ANN401 - Python's lock, or one of our
     """Return a reentrant lock: for code of a node one that waits in virtual time."""
     if _board_of_caller() is None:
         return _real_reentrant_lock()
-    # Written in Python, on the lock above. It has no public name.
-    return threading._PyRLock()  # type: ignore[attr-defined]
+    # Written in Python, on the lock above.
+    return threading._PyRLock()  # type: ignore[attr-defined] # it has no public name
 
 
 _real_reentrant_lock = threading.RLock
@@ -118,8 +118,10 @@ _real_reentrant_lock = threading.RLock
 
 def make_simple_queue() -> Any:  # noqa: ANN401 - Python's queue in C or the one in Python
     """Return a simple queue: for code of a node one that waits in virtual time."""
-    # The one in Python, on the semaphore of `threading`, has no public name.
-    return _real_simple_queue() if _board_of_caller() is None else queue._PySimpleQueue()  # type: ignore[attr-defined]
+    if _board_of_caller() is None:
+        return _real_simple_queue()
+    # Written in Python, on the semaphore of `threading`.
+    return queue._PySimpleQueue()  # type: ignore[attr-defined] # it has no public name
 
 
 _real_simple_queue = queue.SimpleQueue
@@ -174,7 +176,7 @@ def _hook_arguments(thread: threading.Thread) -> Any:  # noqa: ANN401 - a struct
 
 
 def _active() -> dict[int, threading.Thread]:
-    active: dict[int, threading.Thread] = threading._active  # type: ignore[attr-defined]
+    active: dict[int, threading.Thread] = threading._active  # type: ignore[attr-defined] # private
     return active
 
 
@@ -182,8 +184,8 @@ def _start(original: Callable[[threading.Thread], None]) -> Callable[[threading.
     @wraps(original)
     def start(thread: threading.Thread) -> None:
         board = board_here()
-        # A thread knows by this event, which has no public name, that it was started.
-        started: threading.Event = thread._started  # type: ignore[attr-defined]
+        # A thread knows by this event that it was started.
+        started: threading.Event = thread._started  # type: ignore[attr-defined] # private
         if board is None or started.is_set():
             original(thread)
             return
@@ -196,7 +198,7 @@ def _start(original: Callable[[threading.Thread], None]) -> Callable[[threading.
         creator.process.threads += 1
         running = _Running(board, thread, call)
         vars(thread)["_rosbeat_running"] = running
-        thread._ident = thread._native_id = call.ident  # type: ignore[attr-defined]
+        thread._ident = thread._native_id = call.ident  # type: ignore[attr-defined] # private
         started.set()
         _active()[call.ident] = thread
         board.start_greenlet(call, running.run)
