@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import queue
 import sys
 import threading
@@ -105,6 +106,7 @@ class VirtualClock(Clock):
     def now(self) -> Time:
         """Return the time; see rclpy."""
         if not (self.keeper.is_live or self.is_driven):
+            self.keeper.clock_read()
             return Time(nanoseconds=self.keeper.now + self._start_ns, clock_type=self._clock_type)
         handle = self.handle
         with handle:
@@ -307,6 +309,8 @@ Clock.__new__ = staticmethod(_new)  # at import, so exactly once in a process
 
 
 _OWN = str(Path(__file__).parents[1])
+#: A lock that a module has made when it was imported.
+_LOCK = type(_thread.allocate_lock())
 #: Seconds that `time.sleep` refuses: their nanoseconds are no C `long long`.
 _TOO_LONG = 2**63 / 1e9
 #: What Python's own modules have imported by name.
@@ -354,7 +358,13 @@ class VirtualNames:
                 stand, and in the modules that these import.
         """
         namespaces = [*(module.__dict__ for module in _LIBRARY), *_namespaces(code)]
-        with _in_place_of(self._places, namespaces):
+        locks = {
+            value: threads.VirtualLock(self._virtual, value)
+            for names in namespaces[len(_LIBRARY) :]
+            for value in names.values()
+            if type(value) is _LOCK
+        }
+        with _in_place_of({**self._places, **locks}, namespaces):
             yield
 
     def sleep(self, seconds: Any) -> None:  # noqa: ANN401 - unchecked

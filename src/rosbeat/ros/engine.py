@@ -17,6 +17,7 @@ waits (`time.sleep`, a service call, its own `spin`) suspends its own thread onl
 from __future__ import annotations
 
 import contextvars
+from _thread import get_ident
 from asyncio import events
 from collections import deque
 from collections.abc import Callable
@@ -350,7 +351,7 @@ class VirtualTime(Switchboard):
 
     def clock_read(self) -> None:
         """Note that code of a node has read a clock of Python; a loop of that lets time pass."""
-        call = self.current
+        call = self.current if get_ident() == self.thread else None
         if call is None:
             return
         instant, count = call.reads
@@ -664,7 +665,7 @@ class VirtualTime(Switchboard):
         """Report a deadlock for all who wait without a limit, since nothing will ever happen."""
         stuck = [
             call.wait for call in self.suspended
-            if call.wait is not None and call.wait.is_for_good() and not call.wait.reported
+            if call.wait is not None and _is_for_good(call) and not call.wait.reported
         ]  # fmt: skip
         if stuck:
             self._core.deadlocked(stuck)
@@ -969,6 +970,16 @@ class VirtualTime(Switchboard):
 def _is_told(call: Call) -> bool:
     """Return whether a wait of a call holds something up: a callback, or a program."""
     return not call.idle and (call.label is None or call.label.kind != "thread")
+
+
+def _is_for_good(call: Call) -> bool:
+    """Return whether a call waits without a limit, and not for whatever comes.
+
+    A thread that a program has started may well wait for work for ever, and `main` for a thread.
+    """
+    if call.wait is None or not call.wait.is_for_good() or not (_is_told(call) or call.entry):
+        return False
+    return call.entry is not None or call.process.threads == 0
 
 
 def _do_nothing() -> None:

@@ -171,14 +171,21 @@ def node_has_ended(name: str) -> SessionError:
 def deadlock(waits: Sequence[Wait]) -> DeadlockError:
     """Return the error for callbacks that can never go on, by what they wait for."""
     told = [f"{w.call.node} waits in `{w.call.name}` for {w.reason}" for w in waits if w.call]
-    why = "No other callback is left to run, so the wait never ends"
-    if waits[0].needs is not None and len(waits) == 1:
-        why = "The executor that would have to process it is busy with this same callback"
-    return DeadlockError(
-        f"{'; '.join(told)}, forever.",
-        f"{why}: this is a deadlock, on a real robot too.",
-        INSTEAD_OF_WAITING,
+    means = (
+        "No other callback is left to run in this session, so the wait never ends here. On a real "
+        "robot, only another program could end it."
     )
+    if waits[0].needs is not None:
+        means = (
+            "The executor that would have to process it is busy with this same callback: this is "
+            "a deadlock, on a real robot too."
+        )
+        if len(waits) > 1:
+            means = (
+                "The executors that would have to process it are busy with these same callbacks: "
+                "this is a deadlock, on a real robot too."
+            )
+    return DeadlockError(f"{'; '.join(told)}, forever.", means, INSTEAD_OF_WAITING)
 
 
 def never_made(seconds: float) -> SessionError:

@@ -183,7 +183,8 @@ class Process:
         has_tasks: Whether its executor may have tasks to run, while the engine takes its work.
         is_in_turn: Whether the callback that runs has its turn in such a round.
         is_over: Whether it has ended, so that none of its code goes on.
-        threads: How many threads of its own it has begun.
+        threads: How many threads of its own have begun and not ended.
+        running: Those threads; see `threads`.
         failure: What a callback raised last, and the call, until an executor hands it on.
     """
 
@@ -201,6 +202,7 @@ class Process:
         self.due = 0
         self.is_over = False
         self.threads = 0
+        self.running: list[Any] = []
         self.failure: tuple[BaseException, Call] | None = None
         self.is_in_turn = False
         self._round: deque[Entry] = deque()

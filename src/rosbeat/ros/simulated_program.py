@@ -208,8 +208,11 @@ class SimulatedProgram:
     def _run(self) -> None:
         error: BaseException | None = None
         try:
-            code = self._load()()
-            sys.exit(code)
+            try:
+                code = self._load()()
+                sys.exit(code)
+            finally:
+                self._wait_for_threads()
         except BaseException as raised:
             error = raised
         while self._depth:  # what it printed and drew is its own; what follows is the session's
@@ -224,6 +227,12 @@ class SimulatedProgram:
             self._end(-signal.SIGINT)
             raise error  # a real one, meant for the cell
         self._finish(error)
+
+    def _wait_for_threads(self) -> None:
+        """Wait for the threads that are no daemons, as Python does when `main` has returned."""
+        for running in list(self._process.running):
+            if running.outlives_main and not self._process.is_over:
+                running.join(None)
 
     def _load(self) -> Callable[[], Any]:
         """Return `main` of the file, imported afresh, as the script of an entry point does.
@@ -368,7 +377,7 @@ def _checked_file(name: str) -> Path:
             return file
     raise SessionError(
         f"There is no Python file {reprlib.repr(name)}.",
-        "`ros.spawn` runs a program: a Python file with a function `main`.",
+        "`ros.spawn` runs a program: a Python file, most often with a function `main`.",
         "Check the name; it ends in `.py`, and a relative one begins at the current folder.",
     )
 

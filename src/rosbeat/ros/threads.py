@@ -17,6 +17,7 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Callable
+from concurrent.futures import thread as pools
 from functools import wraps
 from itertools import count
 from typing import Any
@@ -32,9 +33,9 @@ _idents = count(1)
 class VirtualLock:
     """Be a lock whose `acquire` suspends a simulated thread; for others, be an ordinary lock."""
 
-    def __init__(self, board: Switchboard) -> None:
+    def __init__(self, board: Switchboard, lock: Any = None) -> None:  # noqa: ANN401 - Python's lock
         self._board = board
-        self._lock = _real_lock()
+        self._lock = lock or _real_lock()
         self._waits: deque[Wait] = deque()
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
@@ -145,6 +146,7 @@ class _Running:
         self.board, self.thread, self.call = board, thread, call
         self.ended = False
         self._waits: list[Wait] = []
+        call.process.running.append(self)
 
     def run(self) -> None:
         """Run the thread's code, and say what it raises as Python does."""
@@ -158,9 +160,17 @@ class _Running:
         finally:
             self.ended = True
             self.call.process.threads -= 1
+            self.call.process.running.remove(self)
             _active().pop(self.call.ident, None)
             for wait in self._waits:
                 self.board.wake(wait)
+
+    @property
+    def outlives_main(self) -> bool:
+        """Return whether Python waits for the thread at the end of `main`."""
+        # The threads of a pool end with the program; their queues have no public name.
+        is_of_pool = self.thread in pools._threads_queues
+        return not self.thread.daemon and not is_of_pool
 
     def join(self, timeout: float | None) -> None:
         """Wait until it has ended."""
