@@ -320,7 +320,7 @@ predict("3", ros.messages("beat")[2].time)
 # Orders that arrive in the meantime wait, and are done one after the other, in the sequence in which they came. Two
 # orders can have the same number; the worker does both.
 #
-# Don't sleep, because the beat would have to wait. And don't start any threads, because they run in real time.
+# Don't sleep, because the beat would have to wait. You don't need a thread either: a timer is enough.
 
 # %% exercise="09b"
 class SteadyWorker(Node):

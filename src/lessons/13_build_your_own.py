@@ -232,8 +232,8 @@ ros.add(Stopwatch)
 ros.run(seconds=12)
 
 # %% [markdown]
-# The sensor stopped after three seconds, and the timer noticed. Use the node's clock rather than `time.time()`: these
-# twelve seconds took almost no time on your computer. A timer can also measure the silence itself: its `reset()` starts
+# The sensor stopped after three seconds, and the timer noticed. Use the node's clock rather than `time.time()`: when
+# a recording is replayed, only the node's clock can follow it. A timer can also measure the silence itself: its `reset()` starts
 # the period again at each message. It repeats until you call `cancel()`.
 #
 # ## Try it: the whole greenhouse

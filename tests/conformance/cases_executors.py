@@ -356,7 +356,9 @@ def exception_with_two_nodes() -> list[Process]:
     return [Process((Raising, Beat)), Process((other_beat,))]
 
 
-@case(3.2, differs="rclpy raises it when the next callback is handed out; a session does at once.")
+@case(
+    3.2, differs="In rclpy, a thread of the pool still runs the callback that was just handed out."
+)
 def exception_with_threads() -> list[Process]:
     """With threads the exception comes to light when the next callback is handed out."""
 

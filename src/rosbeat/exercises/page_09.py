@@ -127,8 +127,7 @@ def _watch(after: float = SILENCE, at_once: bool = False, most: int | None = Non
 
 _UNSEEN = (
     "No message can tell you that none are coming. What else can call the"
-    " node regularly, and by which clock? In a session, time is measured "
-    "by the node's own clock."
+    " node regularly, and by which clock does it measure the silence?"
 )
 _IN_TIME = f"At most {LATE:g} s late: how often does the node look?"
 _COUNT = f"Count from the last reading, and wait for {SILENCE:g} s of silence."
@@ -260,12 +259,11 @@ def _run_with_orders(answer: Answer, fed: Work) -> Observation:
 def _judge_work(observation: Observation, fed: Work) -> Verdict:
     both = (_BEAT.topic, _DONE.topic)
     beats = [beat.time for beat in samples_on(observation, _BEAT)]
-    thread = f"{_CALLED} A thread of its own counts real time, which does not pass here."
     return (
         diagnose_unheard(observation, _ORDER)
         or diagnose_unpublished(observation, _BEAT, both, _CALLED)
         or _wrong_beats(beats, fed)
-        or diagnose_unpublished(observation, _DONE, both, thread)
+        or diagnose_unpublished(observation, _DONE, both, _CALLED)
         or _wrong_reports(observation, fed)
         or passed(
             f"{len(fed.orders)} orders, each done after {WORK:g} s, one after the other; meanwhile "

@@ -424,6 +424,31 @@ def _refuse_to_quit() -> NoReturn:
     raise SystemExit("quit() was called")
 
 
+@contextmanager
+def quitting_raises(in_code_of_node: Callable[[], bool]) -> Iterator[None]:
+    """Let `exit()` and `quit()` of a node's code in a kernel end its process, and not the kernel.
+
+    Those of IPython only ask the shell to end; Python's own raise SystemExit.
+    """
+    shell = _ipython()
+    if shell is None:
+        yield
+        return
+    ask_exit = shell.ask_exit
+
+    def ask_or_raise() -> None:
+        if in_code_of_node():
+            raise SystemExit
+        ask_exit()
+
+    shell.ask_exit = ask_or_raise
+    try:
+        yield
+    finally:
+        if shell.ask_exit is ask_or_raise:
+            shell.ask_exit = ask_exit
+
+
 def _ipython() -> Any:  # noqa: ANN401 - its shell, whose `quit()` ends the kernel after the cell
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None

@@ -46,7 +46,7 @@ from rosbeat.ros.errors import (
 )
 from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
-from rosbeat.ros.isolation import SeededRandom
+from rosbeat.ros.isolation import SeededRandom, quitting_raises
 from rosbeat.ros.launch import Launch, Maker, build_in
 from rosbeat.ros.live import BrokenOff, LiveExecutor
 from rosbeat.ros.logs import bind, close_host, open_host
@@ -623,7 +623,9 @@ class SessionCore:
         before = self.context.install()
         try:
             virtually = self._names_of_time.installed([*self._code(), *code])
-            with self._random.lent(), virtually if self.live is None else nullcontext():
+            quitting = quitting_raises(lambda: self.virtual.in_callback)
+            waiting = virtually if self.live is None else nullcontext()
+            with self._random.lent(), quitting, waiting:
                 yield
         finally:
             self.context.uninstall(before)

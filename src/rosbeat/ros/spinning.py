@@ -15,6 +15,7 @@ from types import FrameType
 from typing import Any, TypeAlias
 
 import rclpy
+from rclpy import experimental
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
@@ -23,6 +24,7 @@ from rosbeat.errors import SessionError
 from rosbeat.ros.context import Interrupts, show_briefly
 from rosbeat.ros.errors import note
 from rosbeat.ros.recording import core_of
+from rosbeat.ros.waits import board_here
 
 #: A `SessionCore`, or None. Its own type would ask everywhere whether a node is of a session.
 _Core: TypeAlias = Any
@@ -38,6 +40,7 @@ def install() -> None:
     rclpy.spin = _spin(rclpy.spin)
     rclpy.spin_once = _spin_once(rclpy.spin_once)
     rclpy.spin_until_future_complete = _spin_until(rclpy.spin_until_future_complete)
+    experimental.EventsExecutor = _refuse_in_session(experimental.EventsExecutor)
 
 
 def _spin(original: Callable[..., None]) -> Callable[..., None]:
@@ -103,6 +106,21 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
             core.wait_until(lambda: future.done() or future.cancelled(), timeout_sec)
 
     return spin_until_future_complete
+
+
+def _refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(original, updated=())
+    def make(*args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - rclpy's own
+        if board_here() is not None:
+            raise SessionError(
+                "A session cannot run an EventsExecutor.",
+                "This executor of `rclpy.experimental` waits in C++, where virtual time does not "
+                "reach it.",
+                "Use a SingleThreadedExecutor or a MultiThreadedExecutor here.",
+            )
+        return original(*args, **kwargs)
+
+    return make
 
 
 def _is_simulated(core: _Core) -> bool:
