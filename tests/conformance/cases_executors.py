@@ -356,9 +356,7 @@ def exception_with_two_nodes() -> list[Process]:
     return [Process((Raising, Beat)), Process((other_beat,))]
 
 
-@case(
-    3.2, differs="In rclpy, a thread of the pool still runs the callback that was just handed out."
-)
+@case(3.2, differs="In rclpy, a thread of the pool still runs what was just handed out.")
 def exception_with_threads() -> list[Process]:
     """With threads the exception comes to light when the next callback is handed out."""
 

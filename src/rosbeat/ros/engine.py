@@ -249,7 +249,8 @@ class VirtualTime(Switchboard):
 
     def timer_reset(self, entry: Entry) -> None:
         """Note that a timer's `reset` was called, which may have brought it nearer."""
-        entry.order = self.next_number()
+        if not getattr(entry.state.node, "keeps_turn", False):
+            entry.order = self.next_number()
         if entry.state.process.is_direct:
             if entry.due_ns is not None:
                 self.schedule.add_timer(entry, self.now)

@@ -294,6 +294,9 @@ def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]
     class Player(Node):
         """Publishes what was recorded."""
 
+        #: Its timer is reset at each step, and comes before those of nodes that were made later.
+        keeps_turn = True
+
         def __init__(self) -> None:
             super().__init__(name)
             self._topic_publishers = [

@@ -151,19 +151,22 @@ class _Running:
     def run(self) -> None:
         """Run the thread's code, and say what it raises as Python does."""
         try:
-            try:
-                self.thread.run()
-            except SystemExit:
-                pass
-            except Exception:
-                threading.excepthook(_hook_arguments(self.thread))
+            self.thread.run()
+        except SystemExit:
+            pass
+        except Exception:
+            threading.excepthook(_hook_arguments(self.thread))
         finally:
-            self.ended = True
-            self.call.process.threads -= 1
-            self.call.process.running.remove(self)
-            _active().pop(self.call.ident, None)
-            for wait in self._waits:
-                self.board.wake(wait)
+            self.end()
+
+    def end(self) -> None:
+        """Note that it has ended, and let go on who has waited for that."""
+        self.ended = True
+        self.call.process.threads -= 1
+        self.call.process.running.remove(self)
+        _active().pop(self.call.ident, None)
+        for wait in self._waits:
+            self.board.wake(wait)
 
     @property
     def outlives_main(self) -> bool:
@@ -207,6 +210,7 @@ def _start(original: Callable[[threading.Thread], None]) -> Callable[[threading.
         call.idle = True
         creator.process.threads += 1
         running = _Running(board, thread, call)
+        call.abandon = running.end
         vars(thread)["_rosbeat_running"] = running
         thread._ident = thread._native_id = call.ident  # type: ignore[attr-defined] # private
         started.set()

@@ -56,6 +56,7 @@ class Call:
         polled: When it last looked at its queues without waiting, and how often at that instant.
         reads: The same of the clocks of Python.
         turns: When it has last let others go first, and how often at that instant.
+        abandon: Called in place of its first step, if its process ends before that.
         changes: How many changes of entities there were when it last looked for events.
         pause_ns: How much time it has let pass since its last look that found nothing.
     """
@@ -76,6 +77,7 @@ class Call:
     reads: tuple[int, int] = (-1, 0)
     turns: tuple[int, int] = (-1, 0)
     pause_ns: int = 0
+    abandon: Callable[[], None] | None = None
     changes: int = -1
 
     @property
@@ -286,6 +288,8 @@ class Switchboard:
         if wait is not None and not wait.over and wait.thread is not getcurrent():
             before = self.current, self.calling
             wait.over = True
+            if call.abandon is not None and not wait.thread and not wait.thread.dead:
+                call.abandon()
             # A pool of threads would log what ends its threads, as if a task of theirs had raised.
             pools = logging.getLogger("concurrent.futures")
             pools.disabled, was_disabled = True, pools.disabled
