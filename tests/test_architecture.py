@@ -109,7 +109,7 @@ FLOORS = (
         },
         {"rclpy"},
     ),
-    ({"engine"}, {"rclpy", "greenlet"}),
+    ({"executors", "engine"}, {"rclpy", "greenlet"}),
     (
         {"clock", "wait_set", "actions", "spinning", "simulated_program", "live"},
         {"rclpy", "greenlet"},

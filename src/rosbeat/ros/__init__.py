@@ -6,8 +6,9 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
 - The session: `session` (the public interface), `session_core` (its state), `errors` (its
   refusals, and what it prints).
 - The engine: `schedule` (what is due when), `waits` (suspending and resuming code, with
-  greenlets), `engine` (the loop), `taking` (what has arrived, straight from rclpy's handles),
-  `processes` (nodes, their entities, simulated processes).
+  greenlets), `executors` (what wakes rclpy's own executors, and which processes they run),
+  `engine` (the loop), `taking` (what has arrived, straight from rclpy's handles), `processes`
+  (nodes, their entities, simulated processes).
 - What code of nodes meets in the place of the operating system: `wait_set` (where rclpy's own
   executors wait), `threads` (threads, locks, queues), `clock` (clocks, and calls that wait).
 - Programs: `simulated_program` (a file with `main()`), `context` (contexts, interrupts,
