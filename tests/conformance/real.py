@@ -29,7 +29,8 @@ from typing import Any
 
 from conformance.machine import LOOPBACK, Watch, read_lines
 
-os.environ.update(LOOPBACK)  # before the middleware looks
+if __name__ == "__main__":  # and not in a process of tests, whose sessions have their own settings
+    os.environ.update(LOOPBACK)  # before the middleware looks
 
 import rclpy
 from rcl_interfaces.msg import Log, ParameterEvent

@@ -431,10 +431,10 @@ def quitting_raises(in_code_of_node: Callable[[], bool]) -> Iterator[None]:
     Those of IPython only ask the shell to end; Python's own raise SystemExit.
     """
     shell = _ipython()
-    if shell is None:
+    ask_exit = getattr(shell, "ask_exit", None)
+    if ask_exit is None:  # no kernel, or a shell that nobody can ask
         yield
         return
-    ask_exit = shell.ask_exit
 
     def ask_or_raise() -> None:
         if in_code_of_node():
