@@ -16,15 +16,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-#: What has real programs talk by UDP within this machine, without shared memory: a process that is
-#: killed leaves its locks behind there, and one that starts later waits for them, up to seconds.
-#: (While the discovery range is LOCALHOST, rmw_fastrtps takes shared memory, whatever the profile
-#: says. The profile itself keeps to the loopback interface.)
-LOOPBACK = {
-    "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
-    "FASTRTPS_DEFAULT_PROFILES_FILE": str(Path(__file__).with_name("loopback.xml")),
-    "FASTDDS_DEFAULT_PROFILES_FILE": str(Path(__file__).with_name("loopback.xml")),
-}
 #: What a machine without load oversleeps, and more.
 _USUAL = 0.003
 

@@ -27,7 +27,8 @@ from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
 from typing import Any
 
-from conformance.machine import LOOPBACK, Watch, read_lines
+from conformance.entry_points import LOG, LOOPBACK
+from conformance.machine import Watch, read_lines
 
 if __name__ == "__main__":  # and not in a process of tests, whose sessions have their own settings
     os.environ.update(LOOPBACK)  # before the middleware looks
@@ -44,7 +45,6 @@ from test_msgs.action import Fibonacci
 from test_msgs.srv import BasicTypes
 
 from conformance.cases import CASES
-from conformance.entry_points import LOG
 from conformance.programs import JOURNAL, Case, Entry, Process, run_main
 
 #: Processes that run at once, and their start, keep two cores busy; more would disturb each other.
