@@ -13,7 +13,7 @@ from rclpy.qos import QoSProfile
 from nodes import SECOND, Doer, Listener, Relay, Talker, Ticker
 from rosbeat import Session
 from rosbeat.errors import EndlessChainError
-from rosbeat.ros import schedule
+from rosbeat.ros import recording, schedule
 from rosbeat.ros.schedule import ChainGuard, Schedule
 
 
@@ -258,3 +258,11 @@ def test_time_that_passes_resets_the_count():
         guard.instant_ends()
     with pytest.raises(EndlessChainError):
         fire(schedule.MOST_FIRINGS + 1)
+
+
+def test_the_recorder_keeps_the_real_clock_while_nodes_run(ros):
+    real, seen = recording.monotonic, []  # it reads the clock for each callback
+    ros.add(partial(Doer, lambda node: seen.append(recording.monotonic)))
+    ros.run(1)
+    assert seen
+    assert set(seen) == {real}

@@ -471,11 +471,15 @@ def _namespaces(code: Iterable[object]) -> list[dict[str, Any]]:
     for value in code:
         bases = value.__mro__ if isinstance(value, type) else ()
         parts += [value, *(part for base in bases for part in vars(base).values())]
-    found = {id(names): names for part in parts if (names := getattr(part, "__globals__", None))}
+    found = {
+        id(names): names
+        for part in parts
+        if (names := getattr(part, "__globals__", None)) and not _is_own(names)
+    }
     waiting = [names for names in found.values() if not _is_library(names)]
     while waiting:
         for names in _imported_by(waiting.pop()):
-            if id(names) not in found and not _is_library(names):
+            if id(names) not in found and not _is_library(names) and not _is_own(names):
                 found[id(names)] = names
                 waiting.append(names)
     return list(found.values())
@@ -489,6 +493,11 @@ def _imported_by(names: dict[str, Any]) -> Iterator[dict[str, Any]]:
             module = sys.modules.get(getattr(value, "__module__", None) or "")
             if module is not None:
                 yield vars(module)
+
+
+def _is_own(names: dict[str, Any]) -> bool:
+    # Methods that `recording` wraps lead to it, and it reads a real clock for each callback.
+    return str(names.get("__file__")).startswith(_OWN)
 
 
 def _is_library(names: dict[str, Any]) -> bool:
