@@ -174,12 +174,12 @@ class VirtualClock(Clock):
     def _jump(self, change: ClockChange, delta_ns: int, do: Callable[[], None]) -> None:
         """Do something that makes the clock jump, and tell those who asked for it."""
         jumps = [jump for jump in (reference() for reference in self._jumps) if jump is not None]
-        told = [jump for jump in jumps if jump.is_meant(change, delta_ns)]
-        for jump in told:
+        meant = [jump for jump in jumps if jump.is_meant(change, delta_ns)]
+        for jump in meant:
             if jump._pre_callback is not None:
                 jump._pre_callback()
         do()
-        for jump in told:
+        for jump in meant:
             if jump._post_callback is not None:
                 jump._post_callback({"clock_change": change, "delta": delta_ns})
         self.keeper.clock_set()
@@ -471,18 +471,18 @@ def _namespaces(code: Iterable[object]) -> list[dict[str, Any]]:
     for value in code:
         bases = value.__mro__ if isinstance(value, type) else ()
         parts += [value, *(part for base in bases for part in vars(base).values())]
-    found = {
+    namespaces = {
         id(names): names
         for part in parts
         if (names := getattr(part, "__globals__", None)) and not _is_own(names)
     }
-    waiting = [names for names in found.values() if not _is_library(names)]
+    waiting = [names for names in namespaces.values() if not _is_library(names)]
     while waiting:
         for names in _imported_by(waiting.pop()):
-            if id(names) not in found and not _is_library(names) and not _is_own(names):
-                found[id(names)] = names
+            if id(names) not in namespaces and not _is_library(names) and not _is_own(names):
+                namespaces[id(names)] = names
                 waiting.append(names)
-    return list(found.values())
+    return list(namespaces.values())
 
 
 def _imported_by(names: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -23,25 +23,25 @@ from rclpy.timer import Timer
 
 _LOOP = set(Executor._wait_for_ready_callbacks.__code__.co_names)
 HAS_OLDEST_TASK_FIRST = "popleft" in _LOOP or not _LOOP & {"reversed", "pop"}
-"""Whether an executor continues its tasks in the order in which they were created.
+"""Tell whether an executor continues its tasks in the order in which they were created.
 
 Kilted does. In Jazzy the newest task goes first.
 """
 
 RAISES_WHEN_CALL_TIMES_OUT = "TimeoutError" in Client.call.__code__.co_names
-"""Whether `client.call(request, timeout_sec)` raises TimeoutError when the time is over.
+"""Tell whether `client.call(request, timeout_sec)` raises TimeoutError when the time is over.
 
 Kilted does. Jazzy returns None.
 """
 
 INIT_IS_FOR_WITH = hasattr(rclpy, "InitContextManager")
-"""Whether `rclpy.init()` returns a context manager that shuts down at the end of its block.
+"""Tell whether `rclpy.init()` returns a context manager that shuts down at the end of its block.
 
 Kilted does. Jazzy returns None, so that `with rclpy.init():` is a TypeError there.
 """
 
 FORGIVES_SHUTDOWN_AFTER_SIGNAL = INIT_IS_FOR_WITH
-"""Whether `rclpy.shutdown()` is in order after Ctrl+C or SIGTERM has shut the context down.
+"""Tell whether `rclpy.shutdown()` is in order after Ctrl+C or SIGTERM has shut the context down.
 
 Kilted refuses only a second call ("Context already shutdown."). Jazzy also refuses the first one
 after a signal ("rcl_shutdown already called on the given context"), so that a program that ends as
@@ -49,7 +49,7 @@ those of the tutorials do has exit code 1.
 """
 
 SHUTDOWN_DESTROYS_NODES = hasattr(Context, "track_node")
-"""Whether `rclpy.shutdown()` destroys the nodes of its context: what uses one of them then raises.
+"""Tell whether `rclpy.shutdown()` destroys the nodes of its context; what uses one then raises.
 
 Kilted does.
 """
@@ -77,7 +77,7 @@ def tasks_for(executor: Executor, entity: object) -> list[Task]:
 KEEPS_TASKS_IN_LIST = hasattr(Executor, "create_task") and "_tasks" in (
     Executor.__init__.__code__.co_names
 )
-"""Whether each pass of an executor asks all of its tasks."""
+"""Tell whether each pass of an executor asks all of its tasks."""
 
 
 def call_soon(executor: Executor, task: Task) -> None:

@@ -69,9 +69,9 @@ def release_of(file: Path) -> str | None:
             text = (folder / "share" / "rclpy" / "package.xml").read_text(encoding="utf-8")
         except (OSError, ValueError):
             continue
-        found = text.partition("<version>")[2].partition("</version>")[0].strip()
-        if found:
-            return found
+        release = text.partition("<version>")[2].partition("</version>")[0].strip()
+        if release:
+            return release
     try:
         return version("rclpy")
     except PackageNotFoundError:

@@ -129,10 +129,10 @@ _levels: WeakKeyDictionary[object, Levels] = WeakKeyDictionary()
 
 def levels_of(owner: object) -> Levels:
     """Return the levels of a simulated process or a session."""
-    found = _levels.get(owner)
-    if found is None:
-        found = _levels[owner] = Levels()
-    return found
+    levels = _levels.get(owner)
+    if levels is None:
+        levels = _levels[owner] = Levels()
+    return levels
 
 
 def set_levels(process: object, arguments: Sequence[str]) -> bool:

@@ -479,13 +479,13 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
             # Of what a command line says, a node may refuse all but the logging.
             is_told = kwargs.get("use_global_arguments", True)
             start = core.start
-            told = ros_arguments(start.arguments()) if is_told else []
+            of_process = ros_arguments(start.arguments()) if is_told else []
             if hasattr(context, "home") and context.ok():  # a program's: see `ProgramContext`
                 kwargs["context"] = context.home
-                told = [*told, *context.ros_arguments] if is_told else told
+                of_process += context.ros_arguments if is_told else []
                 if not context.publishes_logs:
                     kwargs["enable_rosout"] = False
-            kwargs["cli_args"] = node_arguments(kwargs.get("cli_args") or (), told) or None
+            kwargs["cli_args"] = node_arguments(kwargs.get("cli_args") or (), of_process) or None
             new_name, new_namespace = (start.name, start.namespace) if is_told else ("", "")
             core.node_begins(new_name or name, new_namespace or kwargs.get("namespace") or "/")
             with core.context.making_node():

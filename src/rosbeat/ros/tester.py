@@ -59,9 +59,9 @@ def _field(value: Any, default: Any, type_name: str) -> Any:  # noqa: ANN401 - o
     """Return the value of a field, whose type is written as in `sequence<std_msgs/String, 3>`."""
     if isinstance(value, dict):
         return filled(type(default), value)
-    found = re.search(r"(\w+)/(\w+)", type_name)
-    if found and isinstance(value, list | tuple):
-        kind = message_class(f"{found[1]}/msg/{found[2]}")
+    names = re.search(r"(\w+)/(\w+)", type_name)
+    if names and isinstance(value, list | tuple):
+        kind = message_class(f"{names[1]}/msg/{names[2]}")
         return [filled(kind, one) if isinstance(one, dict) else one for one in value]
     return value
 
