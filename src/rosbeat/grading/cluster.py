@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.files import printable
-from rosbeat.grading.jobs import LOST, Evidence, Job, read_line, to_line
+from rosbeat.grading.jobs import PageEvidence, PageJob, lost, read_line, to_line
 from rosbeat.grading.ledger import course_version
 from rosbeat.grading.pool import Pool
 
@@ -34,7 +34,7 @@ except ImportError as error:
     ) from error
 
 Key = TypeVar("Key")
-Submission = Sequence[tuple[Key, Job]]
+Submission = Sequence[tuple[Key, PageJob]]
 
 #: Seconds until a scheduler has answered, and until it has a worker.
 PATIENCE = 15.0
@@ -74,7 +74,7 @@ class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]  # Dask has n
         if self._version != version:
             raise another_course(f"{self._version}, not {version}")
         assert self._pool is not None
-        jobs = [read_line(Job, line) for line in lines]
+        jobs = [read_line(PageJob, line) for line in lines]
         found = dict(self._pool.observe([list(enumerate(jobs))]))
         return [to_line(found[number]) for number in range(len(lines))]
 
@@ -121,7 +121,7 @@ class Cluster:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def observe(self, submissions: Iterable[Submission[Key]]) -> Iterator[tuple[Key, Evidence]]:
+    def observe(self, submissions: Iterable[Submission[Key]]) -> Iterator[tuple[Key, PageEvidence]]:
         """Have submissions observed, several at a time; evidence comes as it is ready.
 
         Raises:
@@ -137,7 +137,7 @@ class Cluster:
                 if not running:
                     return
                 for future in self._done(list(running)):
-                    found = self._found(future, len(running[future]))
+                    found = self._found(future, running[future])
                     if found:
                         keys = [key for key, _ in running.pop(future)]
                         yield from zip(keys, found, strict=True)
@@ -178,7 +178,7 @@ class Cluster:
         threads: int = sum(self._client.nthreads().values())
         return _AHEAD * max(1, threads)
 
-    def _submitted(self, jobs: Sequence[Job]) -> Any:  # noqa: ANN401 - Dask's future
+    def _submitted(self, jobs: Sequence[PageJob]) -> Any:  # noqa: ANN401 - Dask's future
         lines = [to_line(job) for job in jobs]
         return self._client.submit(observe_lines, lines, self._name, self._version, pure=False)
 
@@ -195,21 +195,21 @@ class Cluster:
                 if not self._client.nthreads():
                     raise self._nobody() from error
 
-    def _found(self, future: Any, number: int) -> list[Evidence]:  # noqa: ANN401 - Dask's future
+    def _found(self, future: Any, pages: Submission[Key]) -> list[PageEvidence]:  # noqa: ANN401 - Dask's future
         """Fetch the evidence of a submission; none if it is lost just now, and made again."""
         try:
             found = future.result(timeout=_LOOK)
         except distributed.TimeoutError:
             return []
         except distributed.KilledWorker:
-            return [Evidence(LOST)] * number
+            return [lost(job) for _, job in pages]
         except (OSError, CancelledError, distributed.client.ClosedClientError):
             raise
         except Exception as error:
             raise self._gone(error) from error
         if isinstance(found, str):
             raise GradingError(*json.loads(found))
-        return [read_line(Evidence, line) for line in found]
+        return [read_line(PageEvidence, line) for line in found]
 
     def _nobody(self) -> GradingError:
         return GradingError(

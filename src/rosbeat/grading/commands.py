@@ -32,7 +32,7 @@ from rich.text import Text
 from rosbeat.errors import CommandError, GradingError, RecordError, StoppedError
 from rosbeat.grading.deadlines import mark_late, read_due, read_late_rule
 from rosbeat.grading.files import printable, write_whole
-from rosbeat.grading.jobs import Evidence, Job
+from rosbeat.grading.jobs import PageEvidence, PageJob
 from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version, seed_of
 from rosbeat.grading.manual_marks import FILE as MANUAL
@@ -384,8 +384,8 @@ def _observer(options: argparse.Namespace) -> Observe:
     """Return what has jobs done; workers start only if there is something to do."""
 
     def observe(
-        submissions: Iterable[Sequence[tuple[str, Job]]],
-    ) -> Iterator[tuple[str, Evidence]]:
+        submissions: Iterable[Sequence[tuple[str, PageJob]]],
+    ) -> Iterator[tuple[str, PageEvidence]]:
         if options.scheduler:
             from rosbeat.grading.cluster import Cluster  # it needs Dask, which few have
 

@@ -27,7 +27,6 @@ from markupsafe import Markup
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.outcome_display import RIGHT, WRONG
-from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.files import file_name
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
 from rosbeat.grading.rendering import (
@@ -95,11 +94,6 @@ def _details(mark: Mark) -> Iterator[tuple[str, str]]:
         yield "More help", html(call, mark.exercise)
     for remark in mark.remarks:
         yield "Worth knowing", paragraph(remark)
-    found = [one for one in mark.repairs if one not in (NOT_THERE, PART_NOT_THERE)]
-    if found:
-        yield "How your answer was found", Markup().join(map(paragraph, found))
-    if PART_NOT_THERE in mark.repairs:
-        yield "What is missing", paragraph(PART_NOT_THERE)
     if mark.manual:
         yield "Points", "Your instructor has set the points of this exercise."
     if mark.comment.strip():

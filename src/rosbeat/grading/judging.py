@@ -16,6 +16,7 @@ from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
 from rosbeat.exercises.random_inputs import PAGE
 from rosbeat.grading.jobs import FORGED, LOST, Evidence
+from rosbeat.grading.submitted_page import NOT_THERE
 from rosbeat.grading.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome
 
@@ -58,6 +59,8 @@ def _before_reading(exercise: Exercise[Any], evidence: Evidence) -> Outcome | No
     """Return what can be said before evidence is read; None if there is some."""
     if evidence.how == "ended" and evidence.seen:
         return None
+    if evidence.how == "ended" and evidence.is_missing:
+        return exercise.outcome(not_attempted(NOT_THERE))
     if evidence.how == "ended" and evidence.raised:
         return _raised(exercise, evidence)
     return _ended(exercise.id, evidence)

@@ -19,7 +19,7 @@ from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading.files import printable
-from rosbeat.grading.jobs import Job, to_line
+from rosbeat.grading.jobs import PageJob, to_line
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 
@@ -43,8 +43,8 @@ def course_version() -> str:
     return digest.hexdigest()[:16]
 
 
-def key_of(job: Job, version: str) -> str:
-    """Return what an answer is known by."""
+def key_of(job: PageJob, version: str) -> str:
+    """Return what a page is known by; an answer is known by that and its exercise."""
     return sha256(f"{version}\n{to_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
 
 
@@ -98,6 +98,7 @@ class _Entry:
 
     key: str
     trace: str = ""
+    reaches: tuple[str, ...] = ()
 
 
 class Ledger:
@@ -111,6 +112,7 @@ class Ledger:
         self._path = path
         self._known: dict[str, Outcome] = {}
         self._traces: dict[str, str] = {}
+        self._reaches: dict[str, tuple[str, ...]] = {}
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             self._file: BinaryIO = path.open("ab+")
@@ -135,7 +137,18 @@ class Ledger:
         """Return the trace of an answer; empty if there is none."""
         return self._traces.get(key, "")
 
-    def add(self, key: str, outcome: Outcome, stays: bool = True, trace: str = "") -> None:
+    def reaches(self, key: str) -> tuple[str, ...]:
+        """Return what the page of an answer has reached for, of what observes it."""
+        return self._reaches.get(key, ())
+
+    def add(
+        self,
+        key: str,
+        outcome: Outcome,
+        stays: bool = True,
+        trace: str = "",
+        reaches: tuple[str, ...] = (),
+    ) -> None:
         """Keep an outcome.
 
         Args:
@@ -143,14 +156,18 @@ class Ledger:
             outcome: What was said of it.
             stays: Whether it is kept for later runs, too.
             trace: What the answer did over time, as `traces.trace_of` wrote it.
+            reaches: What its page has reached for, of what observes it.
 
         Raises:
             GradingError: If it cannot be written.
         """
-        self._known[key], self._traces[key] = outcome, trace
+        self._known[key], self._traces[key], self._reaches[key] = outcome, trace, reaches
         if not stays:
             return
-        line = to_json(outcome, {"key": key, **({"trace": trace} if trace else {})})
+        head: dict[str, object] = {"key": key}
+        head |= {"trace": trace} if trace else {}
+        head |= {"reaches": reaches} if reaches else {}
+        line = to_json(outcome, head)
         try:
             self._file.write(_with_digest(_as_ascii(line)))
             self._file.flush()
@@ -172,6 +189,7 @@ class Ledger:
             entry = from_json(_Entry, body, "line")
             self._known[entry.key] = from_json(Outcome, body, "outcome")
             self._traces[entry.key] = entry.trace
+            self._reaches[entry.key] = entry.reaches
         except (ValueError, RecordError):
             return  # damaged, or of an older version: it is judged again
 

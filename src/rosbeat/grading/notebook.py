@@ -1,24 +1,27 @@
 """Read a submitted notebook as untrusted input.
 
-Nothing is executed. Outputs are dropped, however large they are, and the only metadata that is read
-identifies the page and the exercise of a cell.
+Nothing is executed. Of outputs, however large they are, only what a check said of an exercise is
+read; of metadata, what identifies the page and the exercise of a cell.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rosbeat.errors import GradingError
+from rosbeat.exercises.outcome_display import MIME
 
 #: Cells of a notebook that are looked at; a page has fewer than fifty.
 MOST_CELLS = 2_000
 #: Characters of one cell, and values of a notebook, outputs included: each takes memory when it is
 #: parsed. A print loop of 24 MB has three million lines.
 MOST_OF_A_CELL, MOST_VALUES = 1_000_000, 10_000_000
+#: Outputs of a cell that are looked at.
+_MOST_OUTPUTS = 100
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,8 @@ class Cell:
         id: Its id, or empty.
         exercise: The exercise whose answer it says it is, or empty.
         check: The exercise whose check it says it is, or empty.
+        shows: Whether the course marks it as a cell that only shows something.
+        stored: What its stored outputs say of exercises: the id and the status of each.
     """
 
     place: int
@@ -39,6 +44,8 @@ class Cell:
     id: str = ""
     exercise: str = ""
     check: str = ""
+    shows: bool = False
+    stored: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -105,7 +112,18 @@ def _read_cell(place: int, cell: dict[str, Any]) -> Cell:
         _name(cell.get("id")),
         _name(names.get("exercise")),
         _name(names.get("check")),
+        names.get("shows") is True,
+        tuple(_stored(cell.get("outputs"))),
     )
+
+
+def _stored(outputs: Any) -> Iterator[tuple[str, str]]:  # noqa: ANN401 - unchecked
+    """Yield what a check's outcome, as a page stores it, says: the exercise and its status."""
+    for output in outputs[:_MOST_OUTPUTS] if isinstance(outputs, list) else ():
+        data = output.get("data") if isinstance(output, dict) else None
+        outcome = data.get(MIME) if isinstance(data, dict) else None
+        if isinstance(outcome, dict):
+            yield _name(outcome.get("exercise")), _name(outcome.get("status"))
 
 
 def _source(value: Any) -> str:  # noqa: ANN401 - unchecked

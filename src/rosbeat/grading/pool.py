@@ -26,7 +26,7 @@ from typing import TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import from_json
-from rosbeat.grading.jobs import LOST, Evidence, Job, read_line, to_line
+from rosbeat.grading.jobs import Evidence, PageCell, PageEvidence, PageJob, lost, read_line, to_line
 from rosbeat.grading.worker import UNSAFE, environment
 from rosbeat.records import Observation
 from rosbeat.workspace.prerequisites import catch_up
@@ -38,10 +38,15 @@ PATIENCE = 400.0
 _TRIES = 2
 #: A program that certainly works, and has all that most answers need: a node, both ends of a topic,
 #: a timer, a log. No learner pays for a sandbox in which nothing can be observed.
-REHEARSAL = Job(
-    "03a",
-    "Rehearsal",
-    """
+REHEARSAL = PageJob(
+    "03",
+    (
+        PageCell("""\
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+from rosbeat import check
+
 class Rehearsal(Node):
     def __init__(self):
         super().__init__("rehearsal")
@@ -54,8 +59,11 @@ class Rehearsal(Node):
 
     def hear(self, message):
         self.get_logger().info(str(message.data))
-""",
-    imports="from rclpy.node import Node\nfrom std_msgs.msg import Float32",
+
+check("03a", Rehearsal)
+""", checks=("03a",)),
+    ),
+    {"03a": "Rehearsal"},
 )
 
 
@@ -85,7 +93,7 @@ class Worker:
         """Return the number of its process."""
         return self._process.pid
 
-    def observe(self, jobs: Sequence[Job]) -> Iterator[Evidence]:
+    def observe(self, jobs: Sequence[PageJob]) -> Iterator[PageEvidence]:
         """Have the jobs of a submission done.
 
         Yields:
@@ -101,7 +109,7 @@ class Worker:
             self._is_rehearsed = True
         yield from self._exchange([with_files(job) for job in jobs])
 
-    def _exchange(self, jobs: Sequence[Job]) -> Iterator[Evidence]:
+    def _exchange(self, jobs: Sequence[PageJob]) -> Iterator[PageEvidence]:
         assert self._process.stdin is not None
         try:
             line = json.dumps([to_line(job) for job in jobs])
@@ -148,16 +156,16 @@ class Worker:
         self._process.wait()
 
 
-def _understood(line: str) -> Evidence | None:
+def _understood(line: str) -> PageEvidence | None:
     if line.startswith('{"refused"'):
         raise GradingError(*json.loads(line)["refused"])
     try:
-        return read_line(Evidence, line)
+        return read_line(PageEvidence, line)
     except GradingError:
         return None
 
 
-def _require_rehearsed(evidence: Evidence | None) -> None:
+def _require_rehearsed(evidence: PageEvidence | None) -> None:
     """Refuse to go on with a worker in which not even the course's own program can be observed."""
     if evidence is None:  # it has lost no answer: the next one would not start either
         raise GradingError(
@@ -165,7 +173,7 @@ def _require_rehearsed(evidence: Evidence | None) -> None:
             "What it printed, above, says why; nothing was judged, and no mark is lost.",
             "`course doctor` says what this computer lacks. Then run the command again.",
         )
-    said = _failed(evidence)
+    said = _failed(evidence.exercises.get("03a", Evidence("ended")))
     if said:
         raise GradingError(
             f"Nothing can be observed in the sandbox of this machine: {said}",
@@ -220,14 +228,14 @@ class Pool:
             return frozenset(worker.pid for worker in self._all)
 
     def observe(
-        self, submissions: Iterable[Sequence[tuple[Key, Job]]]
-    ) -> Iterator[tuple[Key, Evidence]]:
+        self, submissions: Iterable[Sequence[tuple[Key, PageJob]]]
+    ) -> Iterator[tuple[Key, PageEvidence]]:
         """Have submissions observed, several at a time; evidence comes as it is ready.
 
         Raises:
             GradingError: If no sandbox can be made.
         """
-        results: SimpleQueue[tuple[Key, Evidence] | Future[None]] = SimpleQueue()
+        results: SimpleQueue[tuple[Key, PageEvidence] | Future[None]] = SimpleQueue()
         left = 0
         for one in submissions:
             future = self._threads.submit(self._serve, list(one), results.put)
@@ -242,7 +250,7 @@ class Pool:
                 yield found
 
     def _serve(
-        self, left: list[tuple[Key, Job]], tell: Callable[[tuple[Key, Evidence]], None]
+        self, left: list[tuple[Key, PageJob]], tell: Callable[[tuple[Key, PageEvidence]], None]
     ) -> None:
         """Observe a submission with an idle worker, or with those that come after it."""
         worker, tries = self._idle.get(), 0
@@ -254,7 +262,8 @@ class Pool:
                 if left:
                     worker, tries = self._replaced(worker), tries + 1
                 if left and tries == _TRIES:
-                    tell((left.pop(0)[0], Evidence(LOST)))
+                    key, job = left.pop(0)
+                    tell((key, lost(job)))
                     tries = 0
         finally:
             self._idle.put(worker)
@@ -289,13 +298,13 @@ class Pool:
 _ONE_AT_A_TIME = threading.Lock()
 
 
-def with_files(job: Job) -> Job:
+def with_files(job: PageJob) -> PageJob:
     """Return a job as it is sent: a page of terminals with the workspace that it starts from.
 
     Raises:
         GradingError: If the workspace cannot be made on this machine.
     """
-    if not job.replay:
+    if not job.needs_files:
         return job
     with _ONE_AT_A_TIME:  # making one starts programs, and takes a while
         return replace(job, files=dict(files_before(job.page)))

@@ -1,6 +1,6 @@
 """Judge a class: from its submissions to its gradebook, and what is held for a person.
 
-Answers that agree in everything that affects the result are observed once.
+Pages that agree in everything that affects the result are run once.
 """
 
 from __future__ import annotations
@@ -11,18 +11,25 @@ from dataclasses import dataclass, field, replace
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.answers import NOT_THERE, Answer, answers_on
 from rosbeat.grading.files import printable
-from rosbeat.grading.jobs import LOST, Evidence, Job
+from rosbeat.grading.jobs import LOST, Evidence, PageEvidence, PageJob
 from rosbeat.grading.judging import WATCHER_LOST, judge_and_trace, untouched
 from rosbeat.grading.ledger import Ledger, key_of
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Points, Solution, scaled
 from rosbeat.grading.notebook import Cell, CoursePage
-from rosbeat.grading.submissions import REACHES_INSIDE, Collection, HandedIn, Remark, Submission
+from rosbeat.grading.submissions import (
+    DIFFERS,
+    REACHES_INSIDE,
+    Collection,
+    HandedIn,
+    Remark,
+    Submission,
+)
+from rosbeat.grading.submitted_page import NOT_THERE, Answer, SubmittedPage, submitted_page
 from rosbeat.records import Outcome
 
-#: Has the jobs of submissions done, and gives evidence as it comes.
-Observe = Callable[[Iterable[Sequence[tuple[str, Job]]]], Iterator[tuple[str, Evidence]]]
+#: Has the pages of submissions run, and gives evidence as it comes.
+Observe = Callable[[Iterable[Sequence[tuple[str, PageJob]]]], Iterator[tuple[str, PageEvidence]]]
 #: Is told how many answers are judged, of how many; first, how many were judged in earlier runs.
 Tell = Callable[[int, int], None]
 
@@ -52,8 +59,8 @@ class Plan:
         return self.points.of(exercise, EXERCISES[exercise].points)
 
 
-#: The answers by learner and page.
-Answers = Mapping[tuple[str, str], tuple[Answer, ...]]
+#: The pages that were handed in, by learner and lesson.
+Pages = Mapping[tuple[str, str], SubmittedPage]
 
 
 def grade(
@@ -64,86 +71,96 @@ def grade(
     Raises:
         GradingError: If no sandbox can be made, or the ledger cannot be written.
     """
-    answers = all_answers(collection, plan)
-    published = tuple(one for page in plan.pages for one in _published(page, plan))
-    submitted = [
-        [one for handed in each.pages for one in answers.get((each.learner, handed.page), ())]
+    submitted = all_pages(collection, plan)
+    published = [_published(page, plan) for page in plan.pages]
+    by_learner = [
+        [submitted[key] for page in each.pages if (key := (each.learner, page.page)) in submitted]
         for each in collection.submissions
     ]
-    jobs = _different_jobs([published, *submitted], plan)
-    todo = [[(key, job) for key, job in some if ledger.get(key) is None] for some in jobs]
-    _judge_new([some for some in todo if some], sum(map(len, jobs)), plan, ledger, observe, tell)
-    learners = tuple(_graded(one, answers, plan, ledger) for one in collection.submissions)
+    jobs = _different_jobs([published, *by_learner], plan)
+    _judge_new(jobs, plan, ledger, observe, tell)
+    learners = tuple(_graded(each, submitted, plan, ledger) for each in collection.submissions)
     solutions = tuple(
-        Solution(one.exercise, one.source, ledger.trace(_key(one, plan))) for one in published
+        Solution(answer.exercise, answer.source, ledger.trace(_key(page, answer.exercise, plan)))
+        for page in published
+        for answer in page.answers
+        if plan.out_of(answer.exercise) > 0 and page.job
     )
     return Gradebook(plan.version, learners, collection.remarks, solutions)
 
 
-def _published(page: CoursePage, plan: Plan) -> tuple[Answer, ...]:
-    """Return the published solutions of a page, found as a learner's answers are."""
-    found = answers_on(page, plan.solved.get(page.lesson, ()), seed=plan.seed)
-    return tuple(one for one in found if plan.out_of(one.exercise) > 0 and one.job)
+def _published(page: CoursePage, plan: Plan) -> SubmittedPage:
+    """Return the published solution of a page, as if a learner had handed it in."""
+    return submitted_page(page, plan.solved.get(page.lesson, page.cells), plan.seed)
 
 
-def _key(answer: Answer, plan: Plan) -> str:
-    """Return what an answer is known by in the ledger; empty if nothing has to be observed."""
-    return key_of(answer.job, plan.version) if answer.job else ""
+def _key(page: SubmittedPage, exercise: str, plan: Plan) -> str:
+    """Return what an answer is known by in the ledger; empty if nothing has to be run."""
+    return f"{key_of(page.job, plan.version)}/{exercise}" if page.job else ""
 
 
-def all_answers(collection: Collection, plan: Plan) -> Answers:
-    """Return the answers by learner and page; exercises without points are left out."""
+def all_pages(collection: Collection, plan: Plan) -> Pages:
+    """Return what was handed in, by learner and lesson; what cannot be read is left out."""
     pages = {page.lesson: page for page in plan.pages}
     return {
-        (one.learner, handed.page): tuple(
-            answer
-            for answer in answers_on(pages[handed.page], handed.notebook.cells, plan.seed)
-            if plan.out_of(answer.exercise) > 0
+        (each.learner, handed.page): submitted_page(
+            pages[handed.page], handed.notebook.cells, plan.seed
         )
-        for one in collection.submissions
-        for handed in one.pages
+        for each in collection.submissions
+        for handed in each.pages
         if handed.page in pages and not handed.notebook.problem
     }
 
 
 def _different_jobs(
-    submissions: Iterable[Sequence[Answer]], plan: Plan
-) -> list[list[tuple[str, Job]]]:
-    """Return what there is to observe by submission; of equal answers the first one only."""
+    submissions: Iterable[Sequence[SubmittedPage]], plan: Plan
+) -> list[list[tuple[str, PageJob]]]:
+    """Return what there is to run by submission; of equal pages the first one only."""
     known: set[str] = set()
-    found: list[list[tuple[str, Job]]] = []
-    for answers in submissions:
-        jobs = {_key(one, plan): one.job for one in answers if one.job is not None}
-        found.append([(key, job) for key, job in jobs.items() if key not in known])
+    different: list[list[tuple[str, PageJob]]] = []
+    for pages in submissions:
+        jobs = {key_of(page.job, plan.version): page.job for page in pages if page.job is not None}
+        different.append([(key, job) for key, job in jobs.items() if key not in known])
         known.update(jobs)
-    return found
+    return different
 
 
 def _judge_new(
-    todo: Sequence[Sequence[tuple[str, Job]]],
-    total: int,
+    jobs: Sequence[Sequence[tuple[str, PageJob]]],
     plan: Plan,
     ledger: Ledger,
     observe: Observe,
     tell: Tell,
 ) -> None:
-    jobs = {key: job for some in todo for key, job in some}
-    known = total - len(jobs)
-    tell(known, total)
-    if not jobs:
+    todo = [
+        [(key, job) for key, job in pages if _is_new(key, job, ledger)] for pages in jobs
+    ]
+    by_key = {key: job for pages in todo for key, job in pages}
+    total = sum(len(job.subjects) for pages in jobs for _, job in pages)
+    done = total - sum(len(job.subjects) for job in by_key.values())
+    tell(done, total)
+    if not by_key:
         return
-    for done, (key, evidence) in enumerate(observe(todo), known + 1):
-        # Who loses workers may have had bad luck; the next run tries that answer again.
-        stays = evidence.how != LOST
-        outcome, trace = judge_and_trace(EXERCISES[jobs[key].exercise], evidence, plan.seed)
-        ledger.add(key, outcome, stays, trace)
+    for key, page in observe([pages for pages in todo if pages]):
+        for exercise in by_key[key].subjects:
+            evidence = page.exercises.get(exercise, Evidence(LOST))
+            seed = by_key[key].seeds.get(exercise, 0)
+            outcome, trace = judge_and_trace(EXERCISES[exercise], evidence, seed)
+            # Who loses workers may have had bad luck; the next run tries that page again.
+            stays = evidence.how != LOST
+            ledger.add(f"{key}/{exercise}", outcome, stays, trace, page.remarks)
+            done += 1
         tell(done, total)
+
+
+def _is_new(key: str, job: PageJob, ledger: Ledger) -> bool:
+    return any(ledger.get(f"{key}/{exercise}") is None for exercise in job.subjects)
 
 
 # Marks.
 
 
-def _graded(one: Submission, answers: Answers, plan: Plan, ledger: Ledger) -> Graded:
+def _graded(one: Submission, submitted: Pages, plan: Plan, ledger: Ledger) -> Graded:
     handed = {page.page: page for page in one.pages}
     marks: list[Mark] = []
     for page in plan.pages:
@@ -151,9 +168,13 @@ def _graded(one: Submission, answers: Answers, plan: Plan, ledger: Ledger) -> Gr
         if there is None or there.notebook.problem:
             marks += _without_page(page, one, there, plan)
         else:
-            found = answers[one.learner, page.lesson]
-            marks += [_mark(answer, there, plan, ledger) for answer in found]
-    remarks = (*one.remarks, *_remarks(one, answers))
+            found = submitted[one.learner, page.lesson]
+            marks += [
+                _mark(answer, found, there, plan, ledger)
+                for answer in found.answers
+                if plan.out_of(answer.exercise) > 0
+            ]
+    remarks = (*one.remarks, *_remarks(one, submitted, plan, ledger))
     files = tuple((page.page, page.path) for page in one.pages)
     excused = plan.excuses and all(mark.status == MISSING for mark in marks)
     return Graded(
@@ -161,22 +182,41 @@ def _graded(one: Submission, answers: Answers, plan: Plan, ledger: Ledger) -> Gr
     )
 
 
-def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
-    """Give what an instructor should know of answers, beside marks that stand."""
+def _remarks(
+    one: Submission, submitted: Pages, plan: Plan, ledger: Ledger
+) -> Iterator[Remark]:
+    """Give what an instructor should know of pages, beside marks that stand."""
     for handed in one.pages:
-        for answer in answers.get((one.learner, handed.page), ()):
-            if answer.remarks:
-                said = printable("; ".join(answer.remarks[:3]), 300)
-                text = f"Exercise {answer.exercise}: {said}. The mark stands; look at the answer."
-                yield Remark(REACHES_INSIDE, handed.path, text)
+        page = submitted.get((one.learner, handed.page))
+        if page is None or page.job is None:
+            continue
+        keys = [_key(page, answer.exercise, plan) for answer in page.answers]
+        reaches = list(dict.fromkeys(reach for key in keys for reach in ledger.reaches(key)))
+        if reaches:
+            text = f"The page {printable('; '.join(reaches[:3]), 300)}. The marks stand; look at it."
+            yield Remark(REACHES_INSIDE, handed.path, text)
+        for answer, key in zip(page.answers, keys, strict=True):
+            outcome = ledger.get(key)
+            is_other = outcome is not None and outcome.status != PASSED
+            if answer.stored == PASSED and is_other and plan.out_of(answer.exercise) > 0:
+                yield Remark(DIFFERS, handed.path, _differs(answer.exercise, outcome))
 
 
-def _mark(answer: Answer, handed: HandedIn, plan: Plan, ledger: Ledger) -> Mark:
+def _differs(exercise: str, outcome: Outcome | None) -> str:
+    """Say that a page shows another outcome than its run."""
+    cause = cause_of(outcome) if outcome else ""
+    return (
+        f"Exercise {exercise}: the page shows that it has passed, and when it is run from top to "
+        f"bottom it does not: {cause} Cells may have run in another order, or were changed since."
+    )
+
+
+def _mark(
+    answer: Answer, page: SubmittedPage, handed: HandedIn, plan: Plan, ledger: Ledger
+) -> Mark:
     """Return the mark of an answer; what no machine could watch is held: it may be right."""
-    exercise, key = EXERCISES[answer.exercise], _key(answer, plan)
+    exercise, key = EXERCISES[answer.exercise], _key(page, answer.exercise, plan)
     outcome = ledger.get(key) or untouched(exercise)
-    if outcome.status == NOT_ATTEMPTED and NOT_THERE in answer.repairs:
-        outcome = replace(outcome, evidence=NOT_THERE)
     out_of = plan.out_of(exercise.id)
     points = scaled(outcome, out_of)
     mark = Mark(
@@ -188,7 +228,6 @@ def _mark(answer: Answer, handed: HandedIn, plan: Plan, ledger: Ledger) -> Mark:
         hint=outcome.hint,
         remarks=outcome.remarks,
         parts=outcome.parts,
-        repairs=answer.repairs,
         judged=points,
         late=handed.late,
         source=answer.source,

@@ -20,29 +20,25 @@ import importlib.util
 import inspect
 import json
 import os
-import secrets
 import select
 import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 from rosbeat.environment import PROFILE_VARIABLES
-from rosbeat.errors import GradingError, RecordError
+from rosbeat.errors import GradingError
 from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import FORGED, Evidence, Job, read_line, to_line
+from rosbeat.grading.jobs import PageEvidence, PageJob, read_line, to_line
 from rosbeat.grading.sandbox import (
-    Ending,
     Limits,
     Sandbox,
     View,
     become_able,
     python_folders,
 )
-from rosbeat.records_json import from_json
 
 #: What makes a worker run answers without a sandbox.
 UNSAFE = "--unsafe-no-sandbox"
@@ -52,7 +48,8 @@ _PREPARED = (
     *("numpy", "numpy.random"),
     *("std_msgs.msg", "std_srvs.srv", "sensor_msgs.msg", "rcl_interfaces.msg", "test_msgs.action"),
     *("rosbeat.page_session", "rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
-    "rosbeat.exercises.registry",
+    *("IPython.core.interactiveshell", "rosbeat.exercises.registry", "rosbeat.exercises.check"),
+    *("rosbeat.workspace.terminals", "rosbeat.workspace.magics", "rosbeat.workspace.saving_magic"),
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (
@@ -71,15 +68,8 @@ _KEPT = (
 )
 #: Folders of this package that hold solutions, or are nobody's business in there.
 _HIDDEN = ("exercises/solved", "grading", "authoring", "workspace/finished")
-#: Seconds that one answer may take by the clock on the wall, and a page of terminals.
-WALL, WALL_OF_A_PAGE = 60.0, 240.0
-#: Seconds that a submission may lose to answers that do not end. When they are used up, each of its
-#: further answers has this part of the usual time: most need less than a second.
-LOST_AT_MOST, HURRIED = 180.0, 1 / 6
-#: The part of its time after which a cell that still runs is interrupted, as a learner does it.
-PATIENCE = 1 / 3
-#: Of what an answer may have written itself, no more than the course writes is believed.
-_MOST, _MOST_LINES = 2_000, 1_000_000
+#: Seconds that one run of a page may take by the clock on the wall, and bytes of its evidence.
+WALL, RESULT = 240.0, 60_000_000
 #: How a keeper ends that was told that there are no more submissions.
 _NO_MORE = 7
 
@@ -125,7 +115,7 @@ def prepare() -> None:
     recording = importlib.import_module("rosbeat.ros.recording")
     recording.load_type_support(_TYPES)
     recording.repair_message_classes()  # it looks for them once
-    importlib.import_module("rosbeat.grading.observing")
+    importlib.import_module("rosbeat.grading.transcript")
     # The first log line of a process looks for the file of each module; it finds them here.
     inspect.getmodule(sys._getframe())
     # What is here stays. A fork that looked through it for garbage would copy all of its pages; and
@@ -156,15 +146,10 @@ def _keep(view: View, isolated: bool) -> int:
     line = _line()
     if not line:
         return _NO_MORE
-    lost = 0.0
     try:
         with Sandbox(view, isolated) as sandbox:
             for one in json.loads(line):
-                job = read_line(Job, one)
-                limits = limits_of(job, lost)
-                evidence = _observed(job, sandbox, limits)
-                is_interrupted = not job.replay and evidence.seconds >= limits.wall * PATIENCE
-                lost += evidence.seconds if evidence.how == "deadline" or is_interrupted else 0.0
+                evidence = _observed(read_line(PageJob, one), sandbox)
                 _say(to_line(evidence))
     except GradingError as error:
         _say(json.dumps({"refused": [error.what, error.means, error.to_try]}))
@@ -192,63 +177,20 @@ def _say(line: str) -> None:
         data = data[os.write(1, data) :]
 
 
-def limits_of(job: Job, lost: float = 0.0) -> Limits:
-    """Return what a job may use; a page with builds and programs in terminals needs more.
+def limits_of(job: PageJob) -> Limits:
+    """Return what a page may use; builds and programs in terminals need more processes.
 
     Args:
-        job: The job.
-        lost: Seconds that its submission has lost to answers that did not end.
+        job: The page.
     """
-    wall, processes = (WALL_OF_A_PAGE, 512) if job.replay else (WALL, 128)
-    wall = max(wall * HURRIED, min(wall, LOST_AT_MOST - lost))
-    return Limits(wall=wall, cpu=int(wall) + 1, processes=processes)
+    processes = 512 if job.needs_files else 128
+    return Limits(wall=WALL, cpu=int(WALL) + 1, processes=processes, result=RESULT)
 
 
-def _observed(job: Job, sandbox: Sandbox, limits: Limits) -> Evidence:
-    from rosbeat.grading.observing import observe
+def _observed(job: PageJob, sandbox: Sandbox) -> PageEvidence:
+    from rosbeat.grading.transcript import observe_page
 
-    seal = secrets.token_hex(16)
-    work = partial(observe, job, seal, limits.wall * PATIENCE)
-    ending = sandbox.run(work, limits)
-    if (ending.how, ending.number) == ("signal", signal.SIGKILL):
-        # Somebody outside may have done that, such as a kernel that is out of memory. An answer
-        # that ends itself does so again.
-        ending = sandbox.run(work, limits)
-    return _read(ending, seal)
-
-
-@dataclass(frozen=True)
-class _Said:
-    """Hold what `observing.observe` writes, or what looks like it."""
-
-    seen: str = ""
-    raised: str = ""
-    text: str = ""
-    line: int = 0
-    code: str = ""
-
-
-def _read(ending: Ending, seal: str) -> Evidence:
-    result = ending.result.decode("utf-8", "replace")
-    how, said = ending.how, _Said()
-    if result.startswith(seal):
-        try:
-            said = from_json(_Said, result.removeprefix(seal), "result")
-        except RecordError:
-            how = FORGED
-    elif result:
-        how = FORGED
-    return Evidence(
-        how,
-        ending.number,
-        said.seen,
-        said.raised[:_MOST],
-        said.text[:_MOST],
-        said.line if 0 <= said.line < _MOST_LINES else 0,
-        said.code[:_MOST],
-        ending.output[:_MOST].decode("utf-8", "replace"),
-        round(ending.seconds, 3),
-    )
+    return observe_page(job, partial(sandbox.run, limits=limits_of(job)))
 
 
 if __name__ == "__main__":
