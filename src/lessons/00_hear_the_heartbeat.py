@@ -56,7 +56,7 @@ class Thermometer(Node):
         self.publisher.publish(Float32(data=22.5))
         self.get_logger().info("It is 22.5 degrees")
 
-# %%
+# %% shows=true
 ros = Session()
 ros.add(Thermometer)
 ros.run(seconds=3)
@@ -161,14 +161,14 @@ predict("4", len(newsroom.logs()))
 # ellipses are nodes, boxes are topics, and messages follow the arrows. The slash is part of a topic's full
 # name: here, `weather` and `/weather` are the same topic.
 
-# %%
+# %% shows=true
 viz.graph(newsroom)
 
 # %% [markdown]
 # Together, the nodes and their topics form the [**ROS graph**](../docs/glossary.md#ros-graph). Notice that no arrow
 # goes directly from one node to another. Every message goes through a topic.
 
-# %%
+# %% shows=true
 viz.timeline(newsroom)
 
 # %% [markdown]
@@ -196,7 +196,7 @@ predict("2", len(newsroom.messages("politics")))
 #
 # **Does a publisher notice a new subscriber?** Cleo joins late, and not a line of any reporter's code changes.
 
-# %%
+# %% shows=true
 newsroom.add(Reader("cleo", "weather"))
 newsroom.run(seconds=1)
 
@@ -205,7 +205,7 @@ newsroom.run(seconds=1)
 #
 # **Does a subscriber need a publisher?** End the weather reporter.
 
-# %%
+# %% shows=true
 weather.destroy_node()
 newsroom.run(seconds=2)
 
@@ -297,10 +297,10 @@ predict("0", len(newsroom.logs("dan")))
 # publishes on looks exactly like one on which nothing has been published *yet*. Whenever a node stays silent, ask
 # the session to explain, and look at the graph:
 
-# %%
+# %% shows=true
 newsroom.explain("sport")
 
-# %%
+# %% shows=true
 viz.graph(newsroom.explain("sport"))
 
 # %% [markdown]
@@ -310,7 +310,7 @@ viz.graph(newsroom.explain("sport"))
 #
 # To fix it, add the missing letter.
 
-# %%
+# %% shows=true
 newsroom.add(Reader("dan", "sports"))
 newsroom.run(seconds=1)
 
@@ -342,5 +342,5 @@ quiz("00", "b", "a", "c")
 # **Next:** [create a workspace](01_create_a_workspace.ipynb). The cell with `progress()` at the end of each page
 # shows how far you've come.
 
-# %%
+# %% shows=true
 progress()

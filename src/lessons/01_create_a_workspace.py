@@ -212,7 +212,7 @@ check("01b", workspace.terminal("two"))
 # result, `build` holds intermediate files, and `log` holds a record of each build. You never edit these folders. You
 # can delete all three at any time, because the next build creates them again.
 
-# %%
+# %% shows=true
 viz.diagram("workspace")
 
 # %% [markdown]
@@ -269,5 +269,5 @@ quiz("01", "b", "c", "a")
 #
 # **Next:** [create a package](02_create_a_package.ipynb) in `src`.
 
-# %%
+# %% shows=true
 progress()

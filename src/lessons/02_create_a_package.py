@@ -184,7 +184,7 @@ check("02a", workspace.folder())
 # %% terminal="other"
 # ros2 pkg prefix sensor_simulator
 
-# %%
+# %% shows=true
 viz.diagram("overlay")
 
 # %% [markdown]
@@ -276,5 +276,5 @@ quiz("02", "c", "a", "b")
 #
 # **Next:** [write a publisher](03_write_a_publisher.ipynb), the first node of this package.
 
-# %%
+# %% shows=true
 progress()

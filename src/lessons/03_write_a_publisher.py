@@ -151,7 +151,7 @@ class TemperatureSensor(Node):
 # Run it for five seconds with its log lines, and then without them, until a quarter of an hour has passed. `seed=8`
 # selects the sequence of random numbers: the same seed always gives the same walk.
 
-# %%
+# %% shows=true
 ros = Session(seed=8)
 sensor = ros.add(TemperatureSensor)
 ros.run(seconds=5)
@@ -166,7 +166,7 @@ viz.values(ros, "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 # A session keeps a record of each message: when it was sent, on which topic, by which node, and its value. Compare the
 # last record with the node's own variable:
 
-# %%
+# %% shows=true
 ros.messages("temperature")[-1], sensor.temperature
 
 # %% [markdown]
@@ -430,5 +430,5 @@ quiz("03", "b", "c", "a")
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.
 
-# %%
+# %% shows=true
 progress()

@@ -171,7 +171,7 @@ viz.values(ros, "temperature", bands=limits, unit="°C")
 #
 # Here are the first three seconds on a timeline:
 
-# %%
+# %% shows=true
 viz.timeline(ros, until=3)
 
 # %% [markdown]
@@ -209,7 +209,7 @@ predict("10", len(ros.logs()))
 # seconds, each column is one second. Then the listener resumes and takes ten readings at the same instant, one per
 # column.
 
-# %%
+# %% shows=true
 viz.queue(ros, "temperature")
 
 # %% [markdown]
@@ -475,5 +475,5 @@ quiz("04", "b", "c", "a")
 #
 # **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds the two programs.
 
-# %%
+# %% shows=true
 progress()

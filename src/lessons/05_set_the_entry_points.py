@@ -49,7 +49,7 @@ viz.diagram("05")
 # in the current folder. The first line of the file, `#!/usr/bin/env python3`, says which program runs it. A sensor
 # never ends, so this cell waits only until a reading appears. The program keeps running in its terminal.
 
-# %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # ./temperature_publisher.py
 
@@ -58,9 +58,9 @@ viz.diagram("05")
 # `%terminal` with one percent sign types no command: `--ctrl-c` presses keys, and `--until` waits for a text. Then
 # `$?` holds the exit code of the last command.
 
-# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
+# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"] shows=true
 
-# %% terminal="sensor"
+# %% terminal="sensor" shows=true
 # echo $?
 
 # %% [markdown]
@@ -191,7 +191,7 @@ check("05a", workspace.folder())
 # %% terminal="build"
 # ls install/sensor_simulator/lib/sensor_simulator
 
-# %%
+# %% shows=true
 viz.diagram("entry point")
 
 # %% [markdown]
@@ -199,7 +199,7 @@ viz.diagram("entry point")
 #
 # Here are two entries, one after the other, without a comma between them.
 
-# %%
+# %% shows=true
 [
     "talk = rosie.voice:start"
     "sing = rosie.voice:start"
@@ -306,5 +306,5 @@ quiz("05", "b", "a", "c")
 #
 # **Next:** [build, source, run](06_build_source_run.ipynb): both programs, at the same time.
 
-# %%
+# %% shows=true
 progress()

@@ -51,7 +51,7 @@ viz.diagram("06")
 # A new terminal doesn't know your workspace, so `source` comes first. The cell waits until three
 # readings have appeared. Then the page continues, and the sensor keeps running.
 
-# %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # ros2 run sensor_simulator temperature_publisher
@@ -67,7 +67,7 @@ viz.diagram("06")
 #
 # The sensor has been running for a while. Which reading does the monitor see first?
 
-# %% terminal="monitor --until Status --lines 10" tags=["nbval-ignore-output"]
+# %% terminal="monitor --until Status --lines 10" tags=["nbval-ignore-output"] shows=true
 # ros2 run sensor_simulator temperature_subscriber
 # cd "$ROS2_WORKSPACE"
 # source install/setup.bash
@@ -85,7 +85,7 @@ viz.diagram("06")
 # Both programs log what they do. `viz.message_flow` draws what two terminals show: one row per process, and an arrow
 # for each reading that appears in both.
 
-# %% tags=["nbval-ignore-output"]
+# %% tags=["nbval-ignore-output"] shows=true
 viz.message_flow(workspace.terminal("sensor"), workspace.terminal("monitor"))
 
 # %% [markdown]
@@ -102,7 +102,7 @@ viz.message_flow(workspace.terminal("sensor"), workspace.terminal("monitor"))
 # `ros2 topic echo` prints the messages on one of them. With `--once`, it stops after the first message. The
 # commands and the type `Float32` come with ROS, so this terminal doesn't have to source your workspace.
 
-# %% terminal="look" tags=["nbval-ignore-output"]
+# %% terminal="look" tags=["nbval-ignore-output"] shows=true
 # ros2 topic list
 # ros2 topic echo --once /temperature
 
@@ -118,7 +118,7 @@ viz.message_flow(workspace.terminal("sensor"), workspace.terminal("monitor"))
 # find each other, and nodes in different domains never do. Your terminals have a domain number in their
 # environment, and a session can join that domain:
 
-# %%
+# %% shows=true
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
 ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros)
@@ -134,7 +134,7 @@ viz.graph(ros)
 # The next cell presses `Ctrl` + `C` in the sensor's terminal. **Predict:** is the monitor still running after that?
 # Answer `yes` or `no` in the cell below it.
 
-# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
+# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"] shows=true
 
 # %% predict=true
 # --- answer
@@ -146,10 +146,10 @@ predict("yes", workspace.terminal("monitor").busy)
 # %% [markdown]
 # It is, and it's waiting. It got no error: to a subscriber, silence isn't unusual. Start the sensor again:
 
-# %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"] shows=true
 # ros2 run sensor_simulator temperature_publisher
 
-# %% terminal="monitor" tags=["nbval-ignore-output"]
+# %% terminal="monitor" tags=["nbval-ignore-output"] shows=true
 
 # %% [markdown]
 # The last lines are the new readings: the monitor continues as if nothing had happened. It may miss the first
@@ -180,7 +180,7 @@ check("06a", workspace.folder())
 # couldn't tell them apart. Everything after `--ros-args` is meant for ROS: `-r` is short for *remap*, and with `__node`
 # (two underscores) it gives the node another name. Which text does it log first?
 
-# %% terminal="third" tags=["nbval-ignore-output"]
+# %% terminal="third" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # timeout 3 ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
@@ -221,7 +221,7 @@ check("06b", workspace.folder())
 # The linked files are in a different folder from the copies. So this once, terminals that are already open have to
 # source the workspace again. Start the second monitor once more:
 
-# %% terminal="third" tags=["nbval-ignore-output"]
+# %% terminal="third" tags=["nbval-ignore-output"] shows=true
 # source install/setup.bash
 # timeout 3 ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
 
@@ -233,7 +233,7 @@ check("06b", workspace.folder())
 # The next cell presses `Ctrl` + `C` in both terminals. The tutorial's own sensor would print a traceback here,
 # as you saw on page 03. Your programs print nothing and end with exit code 0.
 
-# %% tags=["nbval-ignore-output"]
+# %% tags=["nbval-ignore-output"] shows=true
 for name in ("monitor", "sensor"):
     workspace.terminal(name).ctrl_c()
 
@@ -269,7 +269,7 @@ for name in ("monitor", "sensor"):
 # builds your package in another place, runs both programs, and checks what they publish, what they log, and how they
 # end. It takes up to half a minute, and also draws which readings crossed from one program to the other.
 
-# %% tags=["nbval-ignore-output"]
+# %% tags=["nbval-ignore-output"] shows=true
 check("system", workspace.folder())
 
 # %% [markdown]
@@ -297,5 +297,5 @@ quiz("06", "b", "a", "c")
 # This is the end of the tutorial, and of the core of the course. The pages from 07 on are electives: take those that
 # you like. **Next:** [look inside the graph](07_look_inside_the_graph.ipynb), where you examine a running system.
 
-# %%
+# %% shows=true
 progress()

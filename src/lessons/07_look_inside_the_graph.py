@@ -33,7 +33,7 @@ from rosbeat.ros.test_nodes import add_greenhouse
 
 viz.diagram("07")
 
-# %%
+# %% shows=true
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
 add_greenhouse(ros)
 ros.start()
@@ -47,12 +47,12 @@ ros.start()
 # First start the sensor from your own package as well. Its executable is called `temperature_publisher`. Which name
 # will the list of nodes show for it?
 
-# %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # ros2 run sensor_simulator temperature_publisher
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 node list
 # ros2 topic list -t
 
@@ -73,7 +73,7 @@ ros.start()
 # - `ros2 interface show` prints the definition of its message type;
 # - `ros2 topic echo` prints its messages. With `--once`, it prints one message and stops.
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 topic info /temperature
 # ros2 interface show std_msgs/msg/Float32
 # ros2 topic echo --once /lights
@@ -90,7 +90,7 @@ ros.start()
 #
 # The weather station publishes twice a second, and your sensor once. Which rate will it measure?
 
-# %% terminal="rate --until average --lines 4" tags=["nbval-ignore-output"]
+# %% terminal="rate --until average --lines 4" tags=["nbval-ignore-output"] shows=true
 # ros2 topic hz /temperature
 
 # %% [markdown]
@@ -98,16 +98,16 @@ ros.start()
 # from all publishers together. It doesn't count messages that were lost on the way, and while a topic is silent, it
 # prints nothing. Stop both programs:
 
-# %% terminal="rate --ctrl-c" tags=["nbval-ignore-output"]
+# %% terminal="rate --ctrl-c" tags=["nbval-ignore-output"] shows=true
 
-# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
+# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"] shows=true
 
 # %% [markdown]
 # ## What belongs to one node?
 #
 # `ros2 node info` looks at the graph from the other side: it lists everything that belongs to one node.
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 node info /window
 
 # %% [markdown]
@@ -120,7 +120,7 @@ ros.start()
 # A [**parameter**](../docs/glossary.md#parameter) is a named value of a node that others can read and change while
 # the node is running.
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 param list /window
 # ros2 param get /window open_above
 # ros2 topic echo --once /window_state
@@ -131,7 +131,7 @@ ros.start()
 #
 # The next cell sets the parameter twice. Which of the two commands takes effect, and what does the window publish then?
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 param set /window open_above 22
 # ros2 param set /window open_above 22.0
 # ros2 topic echo --once /window_state
@@ -149,7 +149,7 @@ ros.start()
 # So `ros2 topic echo` can print log lines. In the next cell, `--filter` lets only warnings and worse through; in it,
 # `m` stands for the message. `grep msg:` keeps only the line with the text.
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 topic echo --once /rosout --filter "m.level >= 30" | grep msg:
 
 # %% [markdown]
@@ -161,7 +161,7 @@ ros.start()
 # nodes run in the process of the session, so the session knows. The next cell shows the subscriptions on a topic.
 # `qos` holds the settings that each was created with, including the depth.
 
-# %%
+# %% shows=true
 ros.graph().on("/temperature", "subscription")
 
 # %% [markdown]
@@ -210,7 +210,7 @@ check("07a", findings)
 # **Where to look:** `explain` combines what all the other commands show. Here is its picture;
 # `rosbeat explain light` prints its text in a terminal.
 
-# %%
+# %% shows=true
 viz.graph(ros.explain("light"))
 
 # %% [markdown]
@@ -293,7 +293,7 @@ check("07c", LogWatcher)
 # or lose messages on purpose. For example, publish 20 degrees on `/temperature`: the window shuts, until the weather
 # station's next reading opens it again. Where no browser can show the panel, you see a still picture instead.
 
-# %%
+# %% shows=true
 ros.panel()
 
 # %% [markdown]
@@ -321,5 +321,5 @@ quiz("07", "c", "a", "b")
 #
 # **Next:** [tune quality of service](08_tune_quality_of_service.ipynb).
 
-# %%
+# %% shows=true
 progress()

@@ -104,7 +104,7 @@ predict(20, len(got))
 # predict("____", len(got))
 # --- end
 
-# %%
+# %% shows=true
 ros, got = busy(20, 5)
 print(got)
 viz.queue(ros, "number")
@@ -138,7 +138,7 @@ predict(0, len(got))
 # predict("____", len(got))
 # --- end
 
-# %%
+# %% shows=true
 for offers in (reliable, best_effort):
     for asks in (reliable, best_effort):
         ros, got = busy(offers, asks)
@@ -183,7 +183,7 @@ predict(4, got[0])
 # predict("____", got[0])
 # --- end
 
-# %%
+# %% shows=true
 for offers in (stored(5), QoSProfile(depth=5)):
     for asks in (stored(5), QoSProfile(depth=5)):
         names = f"offers {offers.durability.name:15}  asks {asks.durability.name:15}"
@@ -375,7 +375,7 @@ check("08c", Watchdog)
 # `QoSPresetProfiles` holds ready-made profiles. `SENSOR_DATA`, or `qos_profile_sensor_data` for short, is made for
 # cameras and similar sensors. Here, a collector with the usual `10` subscribes to a source that uses it.
 
-# %%
+# %% shows=true
 ros = Session()
 ros.add(Source(qos_profile_sensor_data))
 ros.add(Collector(10))
@@ -391,10 +391,10 @@ ros.explain("number")
 # The warnings come from an event. Incompatible QoS is one, called `incompatible_qos`, and if you don't pass a
 # callback for it, rclpy logs the warning. A command in a terminal does the same:
 
-# %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until publishing" tags=["nbval-ignore-output"] shows=true
 # timeout 60 ros2 topic pub --rate 5 --qos-profile sensor_data /number std_msgs/msg/Int32 "{data: 1}"
 
-# %% terminal="listener --until incompatible" tags=["nbval-ignore-output"]
+# %% terminal="listener --until incompatible" tags=["nbval-ignore-output"] shows=true
 # timeout 60 ros2 topic echo --qos-reliability reliable /number std_msgs/msg/Int32
 
 # %% [markdown]
@@ -437,5 +437,5 @@ quiz("08", "c", "a", "b")
 #
 # **Next:** [test the five claims](09_test_the_five_claims.ipynb) of the tutorial.
 
-# %%
+# %% shows=true
 progress()

@@ -132,15 +132,15 @@ predict("4", len(ros.logs()))
 #
 # **Predict:** is the monitor still running after that? Answer `yes` or `no`.
 
-# %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # python3 temperature_publisher.py
 
-# %% terminal="monitor --until Status --lines 2" tags=["nbval-ignore-output"]
+# %% terminal="monitor --until Status --lines 2" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # python3 temperature_subscriber.py
 
-# %% terminal="sensor --kill" tags=["nbval-ignore-output"]
+# %% terminal="sensor --kill" tags=["nbval-ignore-output"] shows=true
 
 # %% predict=true
 # --- answer
@@ -287,7 +287,7 @@ predict("5.5", ros.messages("beat")[2].time)
 # predict("____", ros.messages("beat")[2].time)
 # --- end
 
-# %%
+# %% shows=true
 viz.timeline(ros)
 
 # %% [markdown]
@@ -413,7 +413,7 @@ predict("[5.5, 3, 3]", [default, two, reentrant])
 # So threads can *wait* at the same time. Can they also *calculate* at the same time, on two cores? The next cell runs
 # the same two sums, first in two threads of one process, and then in two processes. `real` is the time on the clock.
 
-# %% terminal="cores" tags=["nbval-ignore-output"]
+# %% terminal="cores" tags=["nbval-ignore-output"] shows=true
 # cd "$ROS2_WORKSPACE/scripts" && cat > cores.py <<'EOF'
 # import sys, threading
 #
@@ -519,7 +519,7 @@ check("09c", AnyMonitor)
 #
 # This time, the other author's sensor runs in the greenhouse, and the monitor there hears nothing.
 
-# %%
+# %% shows=true
 ros = Session(seed=8)
 ros.add(Wave, namespace="greenhouse")
 ros.add(TemperatureMonitor, namespace="greenhouse")
@@ -555,5 +555,5 @@ quiz("09", "a", "b", "c")
 #
 # **Next:** [find the fault](10_find_the_fault.ipynb).
 
-# %%
+# %% shows=true
 progress()

@@ -107,7 +107,7 @@ predict("20", len(ros.messages("status")))
 #
 # Do these two match?
 
-# %%
+# %% shows=true
 ros.explain("status")
 
 # %% [markdown]
@@ -159,7 +159,7 @@ ros.run(seconds=2)
 #
 # Eleven patients are waiting. They are all real nodes that have run for a minute. You can't see their code.
 
-# %%
+# %% shows=true
 ward = clinic.Ward(seed=7)
 patient = ward.patient(1)
 patient
@@ -170,7 +170,7 @@ patient
 # `Ordered` describes how the system should be: which node publishes on which topic, which nodes subscribe to it, and
 # what the numbers mean. `patient.ros` is an ordinary session, so you can use every instrument on it.
 
-# %%
+# %% shows=true
 viz.graph(patient.ros)
 
 # %% [markdown]
@@ -186,7 +186,7 @@ viz.graph(patient.ros)
 # which isn't always where you notice the symptom. If the fault is between two nodes, name the topic. Where more
 # than one place fits, each of them counts. The clinic knows twenty causes, and not all of them occur here:
 
-# %%
+# %% shows=true
 clinic.names()
 
 # %% [markdown]
@@ -194,7 +194,7 @@ clinic.names()
 #
 # Patients 1 to 4 have one fault each. You've met patient 1; here are the other three.
 
-# %%
+# %% shows=true
 for number in (2, 3, 4):
     print(ward.patient(number))
 
@@ -203,7 +203,7 @@ for number in (2, 3, 4):
 # answer rules out. `hint("10a")` costs nothing; hints are only counted. Your diagnoses go into
 # the function `diagnoses`.
 
-# %%
+# %% shows=true
 patient = ward.patient(2)
 viz.timeline(patient.ros, until=3)
 
@@ -303,7 +303,7 @@ predict("0", len(ros.logs("lamp")))
 # predict("____", len(ros.logs("lamp")))
 # --- end
 
-# %%
+# %% shows=true
 ros.explain("status")
 
 # %% [markdown]
@@ -316,7 +316,7 @@ ros.explain("status")
 #
 # Patients 9 to 11 have two faults each, at different places. The order doesn't matter.
 
-# %%
+# %% shows=true
 for number in (9, 10, 11):
     print(ward.patient(number))
 
@@ -370,5 +370,5 @@ quiz("10", "b", "a", "c")
 #
 # **Next:** [record and replay](11_record_and_replay.ipynb), to look at the same run as often as you like.
 
-# %%
+# %% shows=true
 progress()

@@ -95,7 +95,7 @@ bag
 #
 # A bag is a folder with two files. `ros2 bag info` reads it, too:
 
-# %% terminal="bag"
+# %% terminal="bag" shows=true
 # cd "$ROS2_WORKSPACE/resources/bags"
 # ls first_run
 # ros2 bag info first_run
@@ -107,7 +107,7 @@ bag
 #
 # `messages` returns the messages. Here is the first one, with its time in seconds and its value:
 
-# %%
+# %% shows=true
 bag.messages("temperature")[0]
 
 # %% [markdown]
@@ -146,7 +146,7 @@ predict("yes", again.logs() == first.logs())
 # `bags.compare` compares two runs message by message: first the bag with its replay, and then the bag with a new run
 # that uses other random numbers.
 
-# %%
+# %% shows=true
 bags.compare(bag, again, "temperature", names=("the bag", "the replay"))
 
 # %%
@@ -357,5 +357,5 @@ quiz("11", "c", "b", "a")
 #
 # **Next:** [beyond topics](12_beyond_topics.ipynb), where nodes ask questions and get answers.
 
-# %%
+# %% shows=true
 progress()

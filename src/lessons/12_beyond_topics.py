@@ -79,7 +79,7 @@ class Window(Node):
 # request and returns a [**future**](../docs/glossary.md#future): an object that will hold the response once it arrives.
 # `spin_until_future_complete` runs callbacks until then.
 
-# %%
+# %% shows=true
 ros = Session(seed=8)
 window = ros.add(Window)
 guest = ros.add(Node("guest"))
@@ -309,7 +309,7 @@ predict("3", len(guest.result))
 # The tutorial says that services and actions *build upon* topics. Is that true? Underneath ROS is a middleware, DDS,
 # with topics of its own. `no_demangle` shows the names that DDS uses:
 
-# %%
+# %% shows=true
 names = [name for name, _ in guest.get_topic_names_and_types(no_demangle=True)]
 [name for name in names if "open_window" in name or "/air/" in name]
 
@@ -443,7 +443,7 @@ check("12e", Thermostat)
 # This node calls a service in a timer's callback, and waits there for the response. What does it log in
 # three seconds?
 
-# %% terminal="asker"
+# %% terminal="asker" shows=true
 # mkdir -p "$ROS2_WORKSPACE/scripts"
 # cd "$ROS2_WORKSPACE/scripts"
 # cat > deadlock.py <<'EOF'
@@ -505,5 +505,5 @@ quiz("12", "b", "c", "a")
 #
 # **Next:** [build your own](13_build_your_own.ipynb).
 
-# %%
+# %% shows=true
 progress()

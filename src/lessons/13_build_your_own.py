@@ -74,7 +74,7 @@ viz.graph(ros)
 #
 # The check judges exactly this list, sentence by sentence, and gives these points.
 
-# %%
+# %% shows=true
 requirements()
 
 # %% [markdown]
@@ -98,7 +98,7 @@ requirements()
 limits = {"stays as it is": (26.0, 28.0)}
 viz.values(ros, "temperature", bands=limits, unit="°C")
 
-# %%
+# %% shows=true
 viz.values(ros, "humidity", bands={"dry": (None, 40.0)}, unit="%")
 
 # %% [markdown]
@@ -424,7 +424,7 @@ predict("20", len(ros.messages("vent")))
 # predict("____", len(ros.messages("vent")))
 # --- end
 
-# %%
+# %% shows=true
 viz.graph(ros)
 
 # %% [markdown]
@@ -438,7 +438,7 @@ viz.graph(ros)
 # Nothing in your nodes depends on this page, so they can become programs, as on pages 02 to 06. Begin with a
 # package of their own:
 
-# %% terminal="build"
+# %% terminal="build" shows=true
 # cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
 
@@ -607,7 +607,7 @@ def generate_launch_description():
         Node(package="greenhouse", executable="watch"),
     ])
 
-# %% terminal="build"
+# %% terminal="build" shows=true
 # cd "$ROS2_WORKSPACE"
 # colcon build --packages-select greenhouse
 # source install/setup.bash
@@ -638,10 +638,10 @@ def generate_launch_description():
 # %% [markdown]
 # Now for a sensor. `ros2 topic pub` publishes 27.5 degrees once a second. Does the vent open?
 
-# %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until publishing" tags=["nbval-ignore-output"] shows=true
 # ros2 topic pub --rate 1 /temperature std_msgs/msg/Float32 "{data: 27.5}"
 
-# %% terminal="look"
+# %% terminal="look" shows=true
 # ros2 topic echo --once --qos-durability transient_local /vent
 
 # %% [markdown]
@@ -649,7 +649,7 @@ def generate_launch_description():
 # it doesn't matter which of them started first. Only the sensor is simulated now: if a driver publishes a `Float32` on
 # `temperature` instead, no other node notices the difference.
 
-# %% tags=["nbval-ignore-output"]
+# %% tags=["nbval-ignore-output"] shows=true
 for name in ("sensor", "vent"):
     workspace.terminal(name).ctrl_c()
 
@@ -679,5 +679,5 @@ quiz("13", "b", "c", "a")
 # ends: with [launch files](https://docs.ros.org/en/jazzy/Tutorials/Intermediate/Launch/Launch-Main.html), and with
 # [simulated robots](https://docs.ros.org/en/jazzy/Tutorials/Advanced/Simulators/Simulation-Main.html).
 
-# %%
+# %% shows=true
 progress()

@@ -151,7 +151,9 @@ def _cell(cell: SourceCell, text: Callable[[str], str]) -> Any:  # noqa: ANN401 
     if cell.tags:
         made.metadata.tags = list(cell.tags)
     roles = {"exercise": cell.exercise, "check": cell.check}
-    marks = {role: name for role, name in roles.items() if name}
+    marks: dict[str, object] = {role: name for role, name in roles.items() if name}
+    if cell.shows:
+        marks["shows"] = True
     if marks:
         made.metadata.rosbeat = marks
     return made

@@ -39,9 +39,9 @@ _HEADER = ("# ---", r"# title: *(.+)", r"# minutes: *(\d+)", rf"# needs: *\[({_N
            r"# summary: *(.+)", "# ---")  # fmt: skip
 
 _MARKER = re.compile(r"# ?%%(\s|$)")
-_KNOWN_KEYS = {"exercise", "check", "only", "predict", "tags", "terminal", "save"}
+_KNOWN_KEYS = {"exercise", "check", "only", "predict", "shows", "tags", "terminal", "save"}
 #: What a key may be where not every text or list is allowed.
-_VALUES = {"only": ("notebook", "solution"), "predict": (True,)}
+_VALUES = {"only": ("notebook", "solution"), "predict": (True,), "shows": (True,)}
 # jupytext would take `# ls` for a magic, and its comment sign away.
 _FORMAT = {"extension": ".py", "format_name": "percent", "comment_magics": False}
 # jupytext's note to itself about blank lines; it says nothing about the cell.
@@ -87,6 +87,7 @@ class SourceCell:
         only: ``"notebook"`` or ``"solution"`` if the cell appears in one tree only.
         tags: Jupyter cell tags.
         predict: Whether the learner predicts here what the cell will do.
+        shows: Whether it only shows something, so that no exercise depends on it.
         magic: IPython magic that precedes the text on the page, or an empty string.
     """
 
@@ -99,6 +100,7 @@ class SourceCell:
     only: str | None = None
     tags: tuple[str, ...] = ()
     predict: bool = False
+    shows: bool = False
     magic: str = ""
 
     @property
@@ -298,6 +300,7 @@ def _cell(cell: Any, marker: int, name: str, seen: Counter[str]) -> SourceCell: 
         only=metadata.get("only"),
         tags=tuple(metadata.get("tags", ())),
         predict=metadata.get("predict", False),
+        shows=metadata.get("shows", False) or metadata.get("predict", False),
         magic=magic,
     )
 

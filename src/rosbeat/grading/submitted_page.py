@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
@@ -27,6 +27,9 @@ _CHECK = re.compile(r"""(?m)^[^#\n]*?\bcheck\(\s*(?:exercise\s*=\s*)?["']\s*(\w+
 #: What a learner writes into a prediction or a quiz, which changes nothing else of its cell.
 _GUESS = re.compile(r"""\bpredict\(\s*(?:"[^"\n]*"|'[^'\n]*')""")
 _CHOICES = re.compile(r"""\bquiz\((?:\s*(?:"[^"\n]*"|'[^'\n]*')\s*,?)*\)""")
+_TERMINAL = re.compile(r"%%?terminal\s+(\w+)")
+#: What is the same whatever was done with it.
+_OF_THE_COURSE = frozenset(("bags", "clinic", "viz", "workspace"))
 _WORD = re.compile(r"[^\W\d]\w*")
 _IN_WORKSPACE = re.compile(r"(?m)^\s*%%?(?:save|terminal)\b|\bworkspace\b")
 
@@ -124,15 +127,18 @@ def subject_of(page: CoursePage, exercise: str) -> str:
 
 def _to_run(page: CoursePage, code: Sequence[Cell]) -> tuple[PageCell, ...]:
     """Return the cells to run, in order."""
-    shows = {_shape(cell.source): cell for cell in page.cells if cell.shows}
+    released = {_shape(cell.source): cell for cell in page.cells if cell.sort == "code"}
     wanted = {cell.id: cell.exercise for cell in page.wanted}
-    kept = [cell for cell in code if _shape(cell.source) not in shows]
-    left = [cell for cell in code if _shape(cell.source) in shows]
-    names = {name for cell in kept for name in _WORD.findall(cell.source)}
-    while needed := [cell for cell in left if _bound(shows[_shape(cell.source)].source) & names]:
+    left = [cell for cell in code if _is_left_out(cell, released)]
+    kept = [cell for cell in code if cell not in left]
+    own = [cell for cell in kept if _shape(cell.source) not in released]
+    touched = _words(own)
+    needed = [cell for cell in left if _names(cell.source).touched & touched]
+    while needed:
         kept += needed
         left = [cell for cell in left if cell not in needed]
-        names |= {name for cell in needed for name in _WORD.findall(cell.source)}
+        words = _words(kept)
+        needed = [cell for cell in left if _names(cell.source).bound & words]
     return tuple(
         PageCell(
             cell.source,
@@ -144,23 +150,47 @@ def _to_run(page: CoursePage, code: Sequence[Cell]) -> tuple[PageCell, ...]:
     )
 
 
+def _is_left_out(cell: Cell, released: Mapping[str, Cell]) -> bool:
+    """Return whether a cell is as released, and only shows something."""
+    ours = released.get(_shape(cell.source))
+    return ours is not None and ours.shows
+
+
+def _words(cells: Iterable[Cell]) -> frozenset[str]:
+    return frozenset(word for cell in cells for word in _WORD.findall(cell.source))
+
+
 def _shape(source: str) -> str:
     """Return a cell's text without what a learner guesses in it."""
     return _CHOICES.sub("quiz()", _GUESS.sub("predict(____", source)).strip()
 
 
+@dataclass(frozen=True)
+class _Names:
+    """Hold names of a cell: those that it defines, and those of objects that it may change."""
+
+    bound: frozenset[str]
+    touched: frozenset[str]
+
+
 @lru_cache(maxsize=1024)
-def _bound(source: str) -> frozenset[str]:
-    """Return the names that a cell of the course's own defines anywhere in it."""
-    names: set[str] = set()
+def _names(source: str) -> _Names:
+    """Return the names in a cell of the course's own; those of a cell of a terminal are its."""
+    terminal = _TERMINAL.match(source)
+    if terminal:
+        return _Names(frozenset((terminal[1],)), frozenset((terminal[1],)))
+    bound: set[str] = set()
+    used: set[str] = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            names.add(node.id)
+            bound.add(node.id)
         elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            names.add(node.name)
+            bound.add(node.name)
         elif isinstance(node, ast.alias):
-            names.add((node.asname or node.name).split(".")[0])
-    return frozenset(names)
+            bound.add((node.asname or node.name).split(".")[0])
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            used.add(node.value.id)
+    return _Names(frozenset(bound), frozenset(bound | used - _OF_THE_COURSE))
 
 
 # What a person reads of an answer.
