@@ -1,6 +1,6 @@
 """Takes the place of a prepared process of grading, and does what the answer that it gets says.
 
-It answers each job of each submission, and the rehearsal with what a file beside the notes says.
+It answers each page of each submission, and the rehearsal with what a file beside the notes says.
 What it has been given is noted in the file that ROSBEAT_FAKE_WORKER names.
 """
 
@@ -9,7 +9,7 @@ import os
 import sys
 import time
 
-from rosbeat.grading.jobs import Evidence, Job, read_line, to_line
+from rosbeat.grading.jobs import Evidence, PageEvidence, PageJob, read_line, to_line
 
 NOTES = "ROSBEAT_FAKE_WORKER"
 _REFUSED = '{"refused": ["No sandbox.", "Nothing was run.", "Try this."]}'
@@ -21,15 +21,16 @@ def note(word):
 
 
 def answer(job):
-    if job.subject == "Rehearsal":
+    if job.subjects == {"03a": "Rehearsal"}:
         with open(f"{os.environ[NOTES]}.rehearsal", encoding="utf-8") as file:
             return file.read()
-    word = job.answer.split()[0]
+    text = job.cells[0].source
+    word = text.split()[0]
     note(word)
     if word == "die":
         os._exit(3)
-    if word == "die-once" and not os.path.exists(job.answer.split()[1]):
-        open(job.answer.split()[1], "x").close()
+    if word == "die-once" and not os.path.exists(text.split()[1]):
+        open(text.split()[1], "x").close()
         os._exit(3)
     if word == "silent":
         time.sleep(600)
@@ -40,7 +41,7 @@ def answer(job):
         os._exit(0)
     if word in ("nonsense", "forged"):
         return {"nonsense": "Hello?", "forged": '{"seen": "ended"}'}[word]
-    return to_line(Evidence("ended", seen=job.answer))
+    return to_line(PageEvidence({"03a": Evidence("ended", seen=text)}))
 
 
 def main():
@@ -50,7 +51,7 @@ def main():
         sys.exit(1)
     for line in sys.stdin:
         for one in json.loads(line):
-            print(answer(read_line(Job, one)), flush=True)
+            print(answer(read_line(PageJob, one)), flush=True)
 
 
 if __name__ == "__main__":

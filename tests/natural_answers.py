@@ -20,7 +20,6 @@ class Style:
         below: Stands below it.
         members: Stands at the top of the class's body.
         change: Changes the text in any other way.
-        left_out: Whether the mark says that a line was left out, as a command of IPython.
     """
 
     name: str
@@ -28,7 +27,6 @@ class Style:
     below: str = ""
     members: str = ""
     change: Callable[[str], str] = str
-    left_out: bool = False
 
     def around(self, answer: str) -> str:
         """The answer in this style."""
@@ -81,15 +79,14 @@ from rclpy.executors import ExternalShutdownException
 MAGICS = (
     Style("%%time", "%%time"),
     Style("%%capture", "%%capture"),
-    Style("%matplotlib inline", "%matplotlib inline\nimport matplotlib.pyplot as plt",
-          left_out=True),
-    Style("!ls", "!ls -la", left_out=True),
-    Style("!ls over two lines", "!ls \\\n    -la", left_out=True),
-    Style("files = !ls", "files = !ls\nprint(files)", left_out=True),
-    Style("help", below="Node?", left_out=True),
+    Style("%matplotlib inline", "%matplotlib inline\nimport matplotlib.pyplot as plt"),
+    Style("!ls", "!ls -la"),
+    Style("!ls over two lines", "!ls \\\n    -la"),
+    Style("files = !ls", "files = !ls\nprint(files)"),
+    Style("help", below="Node?"),
     Style("%timeit on a line", "%timeit -n 2 -r 1 sum(range(10))"),
     Style("%time on a line", "%time total = sum(range(10))\nprint(total)"),
-    Style("a magic in a block", "if True:\n    %precision 3\n    !echo hello", left_out=True),
+    Style("a magic in a block", "if True:\n    %precision 3\n    !echo hello"),
     Style("get_ipython", "get_ipython().run_line_magic('matplotlib', 'inline')"),
     Style("display", "from IPython.display import HTML, Markdown, clear_output, display",
           "display(Markdown('**done**'))\nclear_output(wait=True)"),

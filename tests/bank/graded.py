@@ -1,6 +1,6 @@
 """Grade answers of the bank, handed in on their pages."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
@@ -9,15 +9,13 @@ from bank import workspaces
 from bank.pages import ROOT
 from bank.reading import Answer, answers
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.answers import Answer as HandedIn
-from rosbeat.grading.answers import answers_on
+from rosbeat.grading.jobs import PageJob
 from rosbeat.grading.judging import judge, untouched
-from rosbeat.grading.notebook import CoursePage, course_pages
+from rosbeat.grading.notebook import Cell, CoursePage, course_pages
 from rosbeat.grading.pool import Pool
+from rosbeat.grading.submitted_page import submitted_page
 from rosbeat.records import Outcome
 
-#: Answers that one learner hands in: as many as a page or two have.
-_AT_ONCE = 6
 #: Lines above an answer in its cell. Answers to the exercises about workspaces that are not here
 #: are no texts of a cell: what a terminal shows, or lines that do by hand what a command would do.
 _ABOVE = {
@@ -27,7 +25,7 @@ _ABOVE = {
     "05a": "%%save src/sensor_simulator/setup.py\n",
     "05b": "%%save src/lamp_control/setup.py\n",
 }
-#: Exercises whose page is replayed in a terminal, with real builds.
+#: Exercises whose answers are commands and files, with real builds.
 REPLAYED = frozenset(_ABOVE)
 
 
@@ -52,35 +50,53 @@ def usable(exercise: str = "") -> tuple[Answer, ...]:
     )
 
 
-def handed_in(answer: Answer) -> HandedIn:
-    """Return what grading finds if a learner hands in the page with this answer on it.
+def page_of(chosen: Sequence[Answer]) -> PageJob | None:
+    """Return the page of a learner who hands in these answers, each to another exercise.
 
-    What the check cell hands over is the answer's: a learner who gives a class another name writes
-    it there, and the bank has such answers.
+    What a check cell hands over is the answer's: a learner who gives a class another name writes it
+    there, and the bank has such answers.
     """
-    page = course()[answer.exercise[:2]]
-    place = [wanted.id for wanted in page.wanted if wanted.exercise == answer.exercise][-1]
-    text = _ABOVE.get(answer.exercise, "") + answer.text
-    cells = [replace(one, source=text) if one.id == place else one for one in page.cells]
-    (found,) = (one for one in answers_on(page, cells) if one.exercise == answer.exercise)
-    if found.job is None or answer.exercise in workspaces.EXERCISES:
-        return found
-    return replace(found, job=replace(found.job, subject=answer.subject))
+    page = course()[chosen[0].exercise[:2]]
+    by_exercise = {one.exercise: one for one in chosen}
+    last = {wanted.exercise: wanted.id for wanted in page.wanted}
+    texts = {last[name]: one for name, one in by_exercise.items()}
+
+    def filled(cell: Cell) -> Cell:
+        if cell.id in texts:
+            one = texts[cell.id]
+            return replace(cell, source=_ABOVE.get(one.exercise, "") + one.text)
+        if cell.check in by_exercise and cell.check not in workspaces.EXERCISES:
+            return replace(cell, source=f'check("{cell.check}", {by_exercise[cell.check].subject})')
+        return cell
+
+    return submitted_page(page, [filled(cell) for cell in page.cells]).job
+
+
+def learners(chosen: Iterable[Answer]) -> list[list[Answer]]:
+    """Return answers as learners hand them in: on a page one to each exercise, at most."""
+    pages: dict[tuple[str, int], list[Answer]] = {}
+    counts: dict[str, int] = {}
+    for one in chosen:
+        turn = counts[one.exercise] = counts.get(one.exercise, 0) + 1
+        # What one answer does to a workspace may be what another one is asked for.
+        alone = one.exercise in REPLAYED
+        pages.setdefault((one.exercise if alone else one.exercise[:2], turn), []).append(one)
+    return list(pages.values())
 
 
 def graded(chosen: Iterable[Answer], workers: int | None = None) -> Iterator[tuple[str, Outcome]]:
     """Yield ids of answers and what grading says of them, as they are ready."""
-    by_id = {one.id: one for one in chosen}
-    jobs = {name: handed_in(one).job for name, one in by_id.items()}
-    for name in (name for name, job in jobs.items() if job is None):
-        yield name, untouched(EXERCISES[by_id[name].exercise])
-    pages = [(name, job) for name, job in jobs.items() if job and job.exercise in _ABOVE]
-    others = [(name, job) for name, job in jobs.items() if job and job.exercise not in _ABOVE]
-    submissions = [others[at : at + _AT_ONCE] for at in range(0, len(others), _AT_ONCE)]
+    submissions = []
+    for page in learners(chosen):
+        job = page_of(page)
+        if job is None:
+            yield from ((one.id, untouched(EXERCISES[one.exercise])) for one in page)
+        else:
+            submissions.append([({one.exercise: one.id for one in page}, job)])
     with Pool(workers) as pool:
-        # A workspace is its learner's: whoever leaves one hands in nothing else.
-        for name, evidence in pool.observe([*submissions, *([one] for one in pages)]):
-            yield name, judge(EXERCISES[by_id[name].exercise], evidence)
+        for names, evidence in pool.observe(submissions):
+            for exercise, name in names.items():
+                yield name, judge(EXERCISES[exercise], evidence.exercises[exercise])
 
 
 @cache
@@ -88,8 +104,8 @@ def sample(most: int) -> tuple[Answer, ...]:
     """Return some answers of each exercise, right and wrong; always the same ones.
 
     Args:
-        most: How many there are of each status of an exercise, at most. A replayed
-            exercise has so many in all.
+        most: How many there are of each status of an exercise, at most. An exercise about files
+            and terminals has so many in all.
     """
     found: dict[tuple[str, str], list[Answer]] = {}
     for one in sorted(usable(), key=lambda one: sha256(one.id.encode()).hexdigest()):

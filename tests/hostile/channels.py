@@ -3,12 +3,18 @@
 from hostile.deed import WRONG, Deed, before
 
 _FORGED = '{"seen": "{}"}'
+#: Finds what runs the page in the frames below the cell, and writes as it does.
 _FRAMES = """
 import json, os, sys
 frame = sys._getframe()
-while frame and "seal" not in frame.f_locals:
+while not hasattr(frame.f_locals.get("self"), "_patience"):
     frame = frame.f_back
-seal = frame.f_locals["seal"]
+page = frame.f_locals["self"]
+
+def write(**said):
+    page._write({"evidence": "03a", **said})
+    page._write({"done": True})
+    os._exit(0)
 """
 #: The true evidence of the answer itself, changed.
 _TRUE = f"""{_FRAMES}
@@ -21,12 +27,9 @@ class Mine(Node):
         self.p = self.create_publisher(Float32, 'humidity', 5)
         self.create_timer(0.7, lambda: self.p.publish(Float32(data=1.0)))
 
-seen = json.loads(to_json(scenario('03a')(Mine, frame.f_locals['job'].seed)))
+seen = json.loads(to_json(scenario('03a')(Mine, page._job.seeds['03a'])))
 """
-_WRITE = """
-os.write(3, (seal + json.dumps({'seen': json.dumps(seen)})).encode())
-os._exit(0)
-"""
+_WRITE = "write(seen=json.dumps(seen))"
 
 
 def _changed(change):
@@ -38,17 +41,17 @@ DEEDS = (
     Deed(
         "a result without a seal",
         before(f"import os\nos.write(3, b'{_FORGED}')\nos._exit(0)", WRONG),
-        words="seal",
+        words="",
     ),
     Deed(
         "a result with a made-up seal",
         before(f"import os\nos.write(3, b'{'0' * 32}{_FORGED}')\nos._exit(0)", WRONG),
-        words="seal",
+        words="",
     ),
     Deed(
         "a result in front of the course's",
         before(f"import os\nos.write(3, b'{_FORGED}')", WRONG),
-        words="seal",
+        words="",
     ),
     Deed(
         "a result behind the course's",
@@ -67,12 +70,12 @@ DEEDS = (
     Deed(
         "a result that is no text",
         before("import os\nos.write(3, bytes(range(256)))\nos._exit(0)", WRONG),
-        words="seal",
+        words="",
     ),
     Deed(
         "a sealed result that is no evidence",
         before(
-            f"{_FRAMES}\nos.write(3, (seal + json.dumps({{'seen': '[]'}})).encode())\nos._exit(0)",
+            f"{_FRAMES}\nwrite(seen='[]')",
             WRONG,
         ),
         words="cannot be",
@@ -80,15 +83,14 @@ DEEDS = (
     Deed(
         "a sealed result of other types",
         before(
-            f"{_FRAMES}\nos.write(3, (seal + json.dumps({{'seen': 1, 'raised': 2, 'line': []}}))"
-            ".encode())\nos._exit(0)",
+            f"{_FRAMES}\nwrite(seen=1, raised=2, line=[])",
             WRONG,
         ),
         words="",
     ),
     Deed(
         "a sealed result, deeply nested",
-        before(f"{_FRAMES}\nos.write(3, (seal + '[' * 100_000).encode())\nos._exit(0)", WRONG),
+        before(f"{_FRAMES}\nwrite(said='[' * 100_000)", WRONG),
         words="seal",
     ),
     Deed(
@@ -101,8 +103,7 @@ DEEDS = (
             "        self.p = self.create_publisher(Float32, 'humidity', 5)\n"
             "        self.create_timer(0.5, lambda: self.p.publish(Float32(data=1.0)))\n"
             "text = to_json(scenario('03a')(Right))\n"
-            "os.write(3, (seal + json.dumps({'seen': text})).encode())\n"
-            "os._exit(0)",
+            "write(seen=text)",
             WRONG,
         ),
         words="it was to last",
@@ -135,9 +136,7 @@ DEEDS = (
     Deed(
         "a sealed result of ten million lists",
         before(
-            f"{_FRAMES}\nbig = json.dumps('[' + '[],' * 10_000_000 + '[]]')\n"
-            "os.write(3, (seal + '{\"seen\": ').encode())\n"
-            "os.write(3, big.encode())\nos.write(3, b'}')\nos._exit(0)",
+            f"{_FRAMES}\nbig = json.dumps('[' + '[],' * 10_000_000 + '[]]')\nwrite(seen=big)",
             WRONG,
         ),
         words="",
@@ -148,7 +147,7 @@ DEEDS = (
             f"{_FRAMES}\nodd = '=1+1' + chr(0x202e) + chr(0xdfff) + chr(27) + '[2J' + chr(7)\n"
             "said = {'raised': '<b>' + odd, 'text': odd, 'line': 10**15,\n"
             "        'code': '<script>alert(1)</script>' + odd}\n"
-            "os.write(3, (seal + json.dumps(said)).encode())\nos._exit(0)",
+            "write(**said)",
             WRONG,
         ),
         words="raised",

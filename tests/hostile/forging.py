@@ -4,6 +4,7 @@ All are wrong answers. What was made in advance does not fit the seed of the cla
 right answer, such as the times of each message, does: there is a solution inside.
 """
 
+from hostile.channels import _FRAMES
 from hostile.deed import WRONG, Deed, before
 
 _EMPTY = "class HumiditySensor(Node):\n    def __init__(self):\n        super().__init__('x')\n"
@@ -19,22 +20,20 @@ DEEDS = (
     Deed(
         "evidence written by the observer's own frame",
         before(
-            "import os, sys\nframe = sys._getframe()\nwhile 'write' not in frame.f_locals:\n"
-            "    frame = frame.f_back\n"
+            f"{_FRAMES}\nfrom rosbeat.exercises.registry import EXERCISES\n"
             "class Right(Node):\n    def __init__(self):\n"
             "        super().__init__('humidity_sensor')\n"
             "        self.p = self.create_publisher(Float32, 'humidity', 5)\n"
             "        self.create_timer(0.5, lambda: self.p.publish(Float32(data=1.0)))\n"
-            "seen = frame.f_locals['run'](Right, **frame.f_locals['given'])\n"
-            "frame.f_locals['write']({'seen': frame.f_globals['to_json'](seen)})\nos._exit(0)",
+            "write(seen=page._observed(EXERCISES['03a'], Right))",
             _EMPTY,
         ),
-        words="it was to last",
+        forges=True,
     ),
     Deed(
         "the recorder, by the garbage collector",
         before(_FIND, WRONG.replace("0.7", "0.4999")) + "        for one in find('Recorder'):\n"
-        f"            times = one._sample_times\n            {_RIGHT_TIMES}\n",
+        f"            times = one._sample_times or [0]\n            {_RIGHT_TIMES}\n",
         forges=True,
     ),
     Deed(
@@ -50,7 +49,7 @@ DEEDS = (
     Deed(
         "evidence by another to_json",
         before(
-            "import sys\nmodule = sys.modules['rosbeat.grading.observing']\nreal = module.to_json\n"
+            "import sys\nmodule = sys.modules['rosbeat.grading.page_process']\nreal = module.to_json\n"
             "def fake(seen):\n"
             "    import dataclasses\n"
             "    samples = tuple(dataclasses.replace(one, time_ns=(n + 1) * 500_000_000)\n"

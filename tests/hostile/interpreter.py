@@ -66,7 +66,7 @@ DEEDS = (
             "import sys\n\nclass Endless:\n    def write(self, text):\n        return len(text)\n"
             "    def flush(self):\n        while True:\n            pass\n\nsys.stdout = Endless()"
         ),
-        words="end",
+        passes=True,
     ),
     Deed(
         "a standard output that lies in the way",
@@ -75,7 +75,7 @@ DEEDS = (
             "os.write(1, b'passed')",
             WRONG,
         ),
-        words="seal",
+        words="",
     ),
     Deed(
         "a profile function, in all threads",
@@ -159,7 +159,7 @@ DEEDS = (
             "program = 'import os; os.write(3, b\"passed\")'\n"
             "os.execv(sys.executable, [sys.executable, '-c', program])"
         ),
-        words="seal",
+        words="",
     ),
     Deed(
         "numbers with other values",

@@ -96,7 +96,7 @@ def _sources_are_numbers(body):
 def _hidden_base(body):
     """The answer builds on a cell above that does more than it needs."""
     cell_of(body, "exercise")["source"] = RIGHT.replace("(Node)", "(Base)")
-    body["cells"].insert(1, {"cell_type": "code", "id": "base", "metadata": {}, "outputs": [],
+    body["cells"].insert(2, {"cell_type": "code", "id": "base", "metadata": {}, "outputs": [],
                              "source": "Base = __import__('os') and Node"})  # fmt: skip
 
 
@@ -153,7 +153,7 @@ UPLOADS = (
            "held", "breaks off"),
     Upload("forged outputs", {PAGE: page(WRONG, _claims)}, "failed", "readings"),
     Upload("an edited check", {PAGE: page(WRONG, _edited_check)}, "failed", "readings"),
-    Upload("a check of another class", {PAGE: page(WRONG, _other_subject)}, "failed", "readings"),
+    Upload("a check of another class", {PAGE: page(WRONG, _other_subject)}, "failed", ""),
     Upload("deleted checks", {PAGE: page(WRONG, _no_checks)}, "failed", "readings"),
     Upload("copied cell ids", {PAGE: page(WRONG, _copied_ids)}, "failed", ""),
     Upload("points of its own", {PAGE: page(WRONG, _points)}, "failed", "readings"),
@@ -164,10 +164,10 @@ UPLOADS = (
     Upload("odd types", {PAGE: page(WRONG, _odd_types)}, "failed"),
     Upload("sources that are numbers", {PAGE: page(RIGHT, _sources_are_numbers)}, ""),
     Upload("a hidden base", {PAGE: page(RIGHT, _hidden_base)}, "passed"),
-    Upload("magics", {PAGE: page("%run /etc/passwd\n" + RIGHT)}, "passed", "left out"),
-    Upload("a shell escape", {PAGE: page("!cat /etc/passwd\n" + RIGHT)}, "passed", "left out"),
-    Upload("a cell magic", {PAGE: page("%%bash\ncat /etc/passwd")}, "failed", "%%bash"),
-    Upload("a terminal where none is", {PAGE: page("%%terminal x\nid")}, "failed", "%%terminal"),
+    Upload("magics", {PAGE: page("%run /etc/passwd\n" + RIGHT)}, "failed", ""),
+    Upload("a shell escape", {PAGE: page("!cat /etc/passwd\n" + RIGHT)}, "passed", ""),
+    Upload("a cell magic", {PAGE: page("%%bash\ncat /etc/passwd")}, "not attempted", ""),
+    Upload("a terminal where none is", {PAGE: page("%%terminal x\nid")}, "not attempted", ""),
     Upload("a file where none is", {PAGE: page("%%save ../../x\nid")}, "failed", "%%save"),
     Upload("control characters", {PAGE: page("\x1b]0;owned\x07\x00" + RIGHT)}, "failed"),
     Upload("letters that look alike", {PAGE: page(RIGHT.replace("Float32(", "Flоat32("))}, "failed",
@@ -192,7 +192,7 @@ UPLOADS = (
     Upload("a helper that is a long chain", {PAGE: page(f"BASE\n{RIGHT}", _above(_CHAIN))},
            "failed"),
     Upload("names that no cell defines", {PAGE: page(
-        f"def unused():\n    {_UNKNOWN}\n\n{RIGHT}", _above(*[_MIGHT] * 900))}, "passed"),
+        f"def unused():\n    {_UNKNOWN}\n\n{RIGHT}", _above(*[_MIGHT] * 90))}, "passed"),
     Upload("helpers that need each other", {PAGE: page(f"n0\n{RIGHT}", _above(
         "\n".join(f"n{n} = n{n + 1}" for n in range(2_000))))}, "failed"),
     Upload("a program of 300,000 statements", {PAGE: page("a = 1\n" + "a;" * 300_000 + RIGHT)}, ""),

@@ -59,7 +59,7 @@ DEEDS = (
         before(
             "import rosbeat.exercises.registry\nrosbeat.exercises.registry.EXERCISES = {}", WRONG
         ),
-        words="readings",
+        words="",
     ),
     Deed(
         "rosbeat's recorder",

@@ -97,7 +97,7 @@ DEEDS = (
         " for v in list(one.values()))][:1]",
         "[]",
     ),
-    _reads("all of its memory", _MEMORY, "found nothing"),
+    _reads("all of its memory", _MEMORY, "PermissionError"),
     _reads(
         "a socket of the machine's host",
         "import socket\nfound = socket.socket(40, socket.SOCK_STREAM)",

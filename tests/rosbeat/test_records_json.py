@@ -18,7 +18,7 @@ from rosbeat.errors import RecordError
 from rosbeat.exercises import evidence
 from rosbeat.exercises.greenhouse import Rubric
 from rosbeat.exercises.progress import Standing
-from rosbeat.grading.jobs import Evidence, Job
+from rosbeat.grading.jobs import PageEvidence, PageJob
 from rosbeat.grading.marks import Gradebook
 from rosbeat.grading.traces import Trace
 from rosbeat.records import (
@@ -29,7 +29,16 @@ from rosbeat.records import (
 )
 from rosbeat.records_json import as_data, from_json, read_head, to_json
 
-KINDS = [*evidence.KINDS.values(), Outcome, Job, Evidence, Gradebook, Trace, Standing, Rubric]
+KINDS = [
+    *evidence.KINDS.values(),
+    Outcome,
+    PageJob,
+    PageEvidence,
+    Gradebook,
+    Trace,
+    Standing,
+    Rubric,
+]
 #: What a message may hold, and what a learner's text may: NaN, and half of a surrogate pair.
 TEXTS = st.text(st.characters(), max_size=4)
 NUMBERS = st.integers(0) | st.integers(-(2**70), 2**70)

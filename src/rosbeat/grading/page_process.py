@@ -33,14 +33,14 @@ from typing import Any
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from rosbeat import page_errors, record_display
+from rosbeat import record_display
 from rosbeat.exercises import cells as exercise_cells
 from rosbeat.exercises import check as check_module
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import PageCell, PageJob
+from rosbeat.grading.jobs import FORGED, PageCell, PageJob
 from rosbeat.grading.tampering import watch_tampering
 from rosbeat.workspace import register as register_commands
 from rosbeat.workspace.location import PAGE, STEADY
@@ -62,7 +62,7 @@ _ARGUMENTS = ["ipykernel_launcher.py", "-f", "kernel.json"]
 _fork, _pipe, _read, _write, _close, _exit = os.fork, os.pipe, os.read, os.write, os.close, os._exit
 _waitpid, _kill, _getpid, _poll = os.waitpid, os.kill, os.getpid, select.poll
 _monotonic, _sleep, _signal = time.monotonic, time.sleep, signal.signal
-_encode = json.JSONEncoder().encode
+_encode, _urandom, _to_text = json.JSONEncoder().encode, os.urandom, to_json
 
 
 @dataclass
@@ -130,11 +130,15 @@ def _writer(seal: str, result: int) -> Write:
     """Return what writes a line: the seal and an object of JSON."""
 
     def write(message: Mapping[str, Any]) -> None:
-        data = memoryview(f"{seal}{_encode(message)}\n".encode("utf-8", "replace"))
-        while data:
-            data = data[_write(result, data) :]
+        _write_all(result, f"{seal}{_encode(message)}\n")
 
     return write
+
+
+def _write_all(descriptor: int, text: str) -> None:
+    data = memoryview(text.encode("utf-8", "replace"))
+    while data:
+        data = data[_write(descriptor, data) :]
 
 
 class TooMuchOutput(KeyboardInterrupt):
@@ -218,6 +222,9 @@ class _Shell(InteractiveShell):
             "raw_input was called, but this frontend does not support input requests."
         )
 
+    def showtraceback(self, *_: object, **__: object) -> None:
+        """Show nothing: nobody reads it, and to format an exception may take for ever."""
+
     def ask_exit(self) -> None:
         """Go on: `exit` and `quit` end no page that runs from top to bottom."""
 
@@ -232,6 +239,7 @@ class _Page:
         self._failed_checks: dict[str, tuple[int, Failure]] = {}
         self._sink = _Sink()
         self._patience = _Patience()
+        self._to_text = _to_text  # what is looked up by name, an answer may have changed
         self._loop = asyncio.new_event_loop()
         self._shell = _new_shell()
 
@@ -315,7 +323,7 @@ class _Page:
     def _observed(self, exercise: Exercise[Any], answer: Any) -> str:  # noqa: ANN401 - any answer
         given = json.loads(self._job.given.get(exercise.id, "{}"))
         seen = exercise.observed(answer, self._job.seeds.get(exercise.id, 0), **given)
-        return to_json(seen)
+        return self._to_text(seen)
 
     def _look(self, exercise: Exercise[Any], answer: Any) -> None:  # noqa: ANN401 - any answer
         """Look at what a page has left in files and terminals; nothing of a learner's runs."""
@@ -331,10 +339,11 @@ class _Page:
         """Observe an answer in a process of its own, so that whatever it does, the page goes on."""
         began, seconds = _monotonic(), self._patience.seconds(CHECK_SECONDS)
         reads, writes = _pipe()
+        token = _urandom(16).hex()
         child = _fork()
         if child == 0:
             _close(reads)
-            self._be_observed(exercise, answer, writes)
+            self._be_observed(exercise, answer, writes, token)
         _close(writes)
         written, is_late = _all_written(reads, child, began + seconds)
         _close(reads)
@@ -347,11 +356,19 @@ class _Page:
         elif not written:
             head |= {"how": "signal", "number": -code} if code < 0 else {"how": "exit"}
             head |= {"number": abs(code)}
+        elif written.startswith(token):
+            head["said"] = written.removeprefix(token)
         else:
-            head["said"] = written
+            head["how"] = FORGED
         self._write(head)
 
-    def _be_observed(self, exercise: Exercise[Any], answer: Any, writes: int) -> None:  # noqa: ANN401 - any answer
+    def _be_observed(
+        self,
+        exercise: Exercise[Any],
+        answer: Any,  # noqa: ANN401 - any answer
+        writes: int,
+        token: str,
+    ) -> None:
         """Be the process that observes an answer; it does not return."""
         code = 1
         try:
@@ -365,9 +382,7 @@ class _Page:
             except BaseException as error:
                 said = vars(self._failure(error, ""))
             said["output"] = self._sink.kept
-            data = memoryview(_encode(said).encode("utf-8", "replace"))
-            while data:
-                data = data[_write(writes, data) :]
+            _write_all(writes, f"{token}{_encode(said)}")
             code = 0
         finally:
             _exit(code)
@@ -437,7 +452,6 @@ def _new_shell() -> Any:  # noqa: ANN401 - IPython carries no types
     config.HistoryManager.enabled = False
     config.InteractiveShell.colors = "NoColor"
     shell: Any = _Shell.instance(config=config)
-    page_errors.register(shell)
     exercise_cells.register(shell)
     record_display.register(shell)
     register_commands(shell)

@@ -41,7 +41,8 @@ _TRIES = 2
 REHEARSAL = PageJob(
     "03",
     (
-        PageCell("""\
+        PageCell(
+            """\
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
@@ -61,7 +62,9 @@ class Rehearsal(Node):
         self.get_logger().info(str(message.data))
 
 check("03a", Rehearsal)
-""", checks=("03a",)),
+""",
+            checks=("03a",),
+        ),
     ),
     {"03a": "Rehearsal"},
 )

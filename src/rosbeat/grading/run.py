@@ -132,9 +132,7 @@ def _judge_new(
     observe: Observe,
     tell: Tell,
 ) -> None:
-    todo = [
-        [(key, job) for key, job in pages if _is_new(key, job, ledger)] for pages in jobs
-    ]
+    todo = [[(key, job) for key, job in pages if _is_new(key, job, ledger)] for pages in jobs]
     by_key = {key: job for pages in todo for key, job in pages}
     total = sum(len(job.subjects) for pages in jobs for _, job in pages)
     done = total - sum(len(job.subjects) for job in by_key.values())
@@ -182,9 +180,7 @@ def _graded(one: Submission, submitted: Pages, plan: Plan, ledger: Ledger) -> Gr
     )
 
 
-def _remarks(
-    one: Submission, submitted: Pages, plan: Plan, ledger: Ledger
-) -> Iterator[Remark]:
+def _remarks(one: Submission, submitted: Pages, plan: Plan, ledger: Ledger) -> Iterator[Remark]:
     """Give what an instructor should know of pages, beside marks that stand."""
     for handed in one.pages:
         page = submitted.get((one.learner, handed.page))
@@ -193,7 +189,9 @@ def _remarks(
         keys = [_key(page, answer.exercise, plan) for answer in page.answers]
         reaches = list(dict.fromkeys(reach for key in keys for reach in ledger.reaches(key)))
         if reaches:
-            text = f"The page {printable('; '.join(reaches[:3]), 300)}. The marks stand; look at it."
+            text = (
+                f"The page {printable('; '.join(reaches[:3]), 300)}. The marks stand; look at it."
+            )
             yield Remark(REACHES_INSIDE, handed.path, text)
         for answer, key in zip(page.answers, keys, strict=True):
             outcome = ledger.get(key)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from importlib import import_module
-from types import CodeType, FrameType, ModuleType
+from types import FrameType, FunctionType, ModuleType
 from typing import Any
 
 from rosbeat.ros.exception_origin import is_foreign
@@ -41,7 +41,9 @@ _SET = frozenset(("__code__", "__defaults__", "__kwdefaults__", "__class__"))
 #: Modules in which the judges are, and what they are made of.
 _JUDGES = "rosbeat.exercises."
 #: Of these modules, only what pages use themselves.
-_OF_PAGES = frozenset(f"{_JUDGES}{name}" for name in ("check", "hint", "predict", "progress", "quiz"))
+_OF_PAGES = frozenset(
+    f"{_JUDGES}{name}" for name in ("check", "greenhouse", "hint", "predict", "progress", "quiz")
+)
 #: What leads from a node to what records it: module, class and attribute.
 _PATHS = (("rosbeat.ros.context", "SessionContext", "session_core"),)
 _MOST = 20
@@ -80,8 +82,9 @@ class _Watch:
         elif event == "object.__getattr__" and arguments[1] in _ATTRIBUTES:
             self.note(f"looks at {arguments[1]}")
         elif event in ("object.__setattr__", "object.__delattr__") and arguments[1] in _SET:
-            if isinstance(arguments[0], type(_caller)) and _is_ours(arguments[0].__code__):
-                self.note(f"changes {arguments[0].__name__}")
+            changed = arguments[0]
+            if isinstance(changed, FunctionType) and is_foreign(changed.__code__.co_filename):
+                self.note(f"changes {changed.__name__}")
 
 
 def _caller(frame: FrameType | None) -> FrameType | None:
@@ -98,10 +101,6 @@ _THROUGH = ("inspect", "importlib", "gc", "ctypes")
 def _is_library(frame: FrameType) -> bool:
     name = str(frame.f_globals.get("__name__", ""))
     return name.split(".")[0] in _THROUGH or name.startswith("_frozen_importlib")
-
-
-def _is_ours(code: CodeType) -> bool:
-    return is_foreign(code.co_filename)
 
 
 class _WatchedModule(ModuleType):

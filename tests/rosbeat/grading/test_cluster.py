@@ -17,7 +17,7 @@ from grading_class import hand_in, pages_of
 from rosbeat.errors import GradingError
 from rosbeat.grading import cluster as module
 from rosbeat.grading.cluster import Cluster
-from rosbeat.grading.jobs import LOST, Job
+from rosbeat.grading.jobs import PageCell, PageJob, lost
 from rosbeat.grading.ledger import FILE, Ledger
 from rosbeat.grading.marks import Points
 from rosbeat.grading.pool import Pool
@@ -164,7 +164,8 @@ def test_nothing_is_left_on_the_workers(cluster, eventually):
 def test_a_cluster_with_another_course_is_refused(cluster, monkeypatch, says):
     monkeypatch.setattr(module, "course_version", lambda: "another")
     with Cluster(cluster.scheduler_address) as found, pytest.raises(GradingError) as caught:
-        list(found.observe([[("a", Job("03a", "Beat", "class Beat: ..."))]]))
+        job = PageJob("03", (PageCell("class Beat: ..."),), {"03a": "Beat"})
+        list(found.observe([[("a", job)]]))
     says(caught.value, "another course", "another", "Install the same version")
 
 
@@ -172,8 +173,8 @@ def test_a_job_that_costs_workers_is_given_up(cluster, monkeypatch):
     monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
     with Cluster(cluster.scheduler_address) as found:
         monkeypatch.setattr(found, "_submitted", lambda _: found._client.submit(os._exit, 1))
-        jobs = [(key, Job("03a", "Beat", "")) for key in "ab"]
-        assert [(key, one.how) for key, one in found.observe([jobs])] == [("a", LOST), ("b", LOST)]
+        jobs = [(key, PageJob("03", (), {"03a": "Beat"})) for key in "ab"]
+        assert list(found.observe([jobs])) == [(key, lost(job)) for key, job in jobs]
 
 
 @pytest.mark.parametrize("address", [NOBODY, "nonsense://x", "\x1b[31m:1"])

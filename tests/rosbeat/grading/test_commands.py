@@ -20,7 +20,7 @@ from rosbeat.grading.commands import (
     choose_pages,
     find_checkout,
 )
-from rosbeat.grading.jobs import Evidence
+from rosbeat.grading.jobs import Evidence, PageEvidence
 from rosbeat.grading.ledger import FILE
 from rosbeat.grading.review import ReviewServer
 from small_course import PAGES, small_course
@@ -170,7 +170,8 @@ class Workers:
     def observe(self, submissions):
         for key, job in (one for some in submissions for one in some):
             self.jobs.append(job)
-            yield key, Evidence("ended", raised="ZeroDivisionError", text="division by zero")
+            seen = Evidence("ended", raised="ZeroDivisionError", text="division by zero")
+            yield key, PageEvidence(dict.fromkeys(job.subjects, seen))
 
 
 @pytest.fixture

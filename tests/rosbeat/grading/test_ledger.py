@@ -6,11 +6,11 @@ import pytest
 
 from rosbeat.errors import GradingError
 from rosbeat.grading import ledger as module
-from rosbeat.grading.jobs import Job
+from rosbeat.grading.jobs import PageCell, PageJob
 from rosbeat.grading.ledger import FILE, SEED_FILE, Ledger, course_version, key_of, seed_of
 from rosbeat.records import Outcome, Part
 
-JOB = Job("03a", "Beat", "class Beat: ...")
+JOB = PageJob("03", (PageCell("class Beat: ..."),), {"03a": "Beat"})
 OUTCOME = Outcome(
     "03a", "failed", "Seen: \x1b é \ud800", "h", "late", 1, 2, ("r",), (Part("R1", "t", True),)
 )
@@ -80,14 +80,14 @@ def test_a_full_disk_is_said(path, monkeypatch, says):
 def test_a_key_is_all_that_decides():
     assert key_of(JOB, "1") == key_of(replace(JOB), "1")
     others = [
-        replace(JOB, answer="x"),
-        replace(JOB, given='{"a": 1}'),
-        replace(JOB, parts=("",)),
-        replace(JOB, seed=1),
+        replace(JOB, cells=(PageCell("x"),)),
+        replace(JOB, given={"03a": '{"a": 1}'}),
+        replace(JOB, subjects={"03a": "Ear"}),
+        replace(JOB, seeds={"03a": 1}),
     ]
     keys = {key_of(JOB, "1"), key_of(JOB, "2"), *(key_of(one, "1") for one in others)}
     assert len(keys) == 6
-    assert key_of(replace(JOB, answer="\ud800"), "1")
+    assert key_of(replace(JOB, cells=(PageCell("\ud800"),)), "1")
 
 
 def test_the_version_is_another_one_with_another_judge(tmp_path, monkeypatch):

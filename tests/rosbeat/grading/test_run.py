@@ -1,16 +1,18 @@
 """A class from what was handed in to its gradebook, and the workers that observe its answers."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 import psutil
 import pytest
 
-from bank.graded import handed_in, usable
+from bank.graded import page_of, usable
 from fake_worker import NOTES
 from grading_files import DONE, PAGE_03, PAGE_04, cell, notebook, page
 from rosbeat.diagnosis.mistakes import MISTAKES
@@ -18,7 +20,16 @@ from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import pool as module
-from rosbeat.grading.jobs import FORGED, LOST, Evidence, Job, read_line, to_line
+from rosbeat.grading.jobs import (
+    FORGED,
+    LOST,
+    Evidence,
+    PageCell,
+    PageEvidence,
+    PageJob,
+    read_line,
+    to_line,
+)
 from rosbeat.grading.judging import judge
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.marks import Points
@@ -38,17 +49,17 @@ RAISES = Evidence("ended", raised="ZeroDivisionError", text="division by zero", 
 
 
 class Observer:
-    """Says the same of every answer, and keeps what it was asked."""
+    """Says the same of every exercise of every page, and keeps what it was asked."""
 
-    def __init__(self, seen=RAISES, after=None):
-        self.seen, self.after, self.jobs = seen, after, []
+    def __init__(self, seen=RAISES, after=None, remarks=()):
+        self.seen, self.after, self.remarks, self.jobs = seen, after, remarks, []
 
     def __call__(self, submissions):
         for key, job in (one for some in submissions for one in some):
             if len(self.jobs) == self.after:
                 raise KeyboardInterrupt
             self.jobs.append(job)
-            yield key, self.seen
+            yield key, PageEvidence(dict.fromkeys(job.subjects, self.seen), self.remarks)
 
 
 @pytest.fixture
@@ -96,8 +107,9 @@ def test_only_what_differs_is_observed(graded):
     assert graded(files, observers[3], version="2").course == "2"
     graded(files, observers[4], seed=2)
     assert [len(one.jobs) for one in observers] == [2, 0, 1, 2, 2]
-    assert "2.0" in observers[2].jobs[0].answer
-    assert {job.seed for job in observers[4].jobs} == {2}
+    assert "2.0" in str(observers[2].jobs[0].cells)
+    drawn = [seed for job in observers[4].jobs for seed in job.seeds.values()]
+    assert len({*drawn, 0, 2}) == 4  # from the secret, and another one for each page
 
 
 def test_who_is_stopped_in_the_middle_goes_on_there(graded):
@@ -127,34 +139,44 @@ def test_an_answer_whose_worker_was_lost_is_tried_again_next_time(graded):
 
 
 def test_what_reaches_inside_is_remarked_and_its_mark_stands(graded):
-    observer = Observer()
-    source = "import gc, os\n" + DONE
-    book = graded({"ana/03.ipynb": page(source=source), "ben/03.ipynb": PAGE_03}, observer)
-    assert [one.marks[0].status for one in book.learners] == ["failed", "failed"]
+    observer = Observer(remarks=("line 1 calls C by ctypes",))
+    book = graded({"ana/03.ipynb": PAGE_03, "ben/03.ipynb": page()}, observer)
+    assert [one.marks[0].status for one in book.learners] == ["failed", "not attempted"]
     (remark,) = (one for one in book.learners[0].remarks if one.about == "reaches-inside")
     assert remark.path == "ana/03.ipynb"
-    assert remark.text == ("Exercise 03a: line 1 imports gc. The mark stands; look at the answer.")
-    assert len(observer.jobs) == 2
+    assert remark.text == "The page line 1 calls C by ctypes. The marks stand; look at it."
+    again = graded({"ana/03.ipynb": PAGE_03}, Observer())  # from the ledger
+    assert again.learners[0].remarks == book.learners[0].remarks
+    assert not [one for one in book.learners[1].remarks if one.about == "reaches-inside"]
+
+
+def test_a_page_that_shows_another_outcome_than_its_run_needs_a_person(graded):
+    shown = {"application/vnd.rosbeat.outcome+json": {"exercise": "03a", "status": "passed"}}
+    body = json.loads(PAGE_03)
+    body["cells"][3]["outputs"] = [{"output_type": "display_data", "data": shown, "metadata": {}}]
+    files = {"ana/03.ipynb": json.dumps(body), "ben/03.ipynb": PAGE_03}
+    ana, ben = graded(files, Observer()).learners
+    (remark,) = (one for one in ana.remarks if one.about == "differs")
+    assert "03a: the page shows that it has passed" in remark.text
+    assert "division by zero" in remark.text
+    assert ana.marks == tuple(replace(one) for one in ben.marks)
+    assert not [one for one in ben.remarks if one.about == "differs"]
 
 
 def test_points_are_those_of_the_file_and_none_means_not_graded(graded):
-    observer = Observer(Evidence("ended"))
     files = {"ana/03.ipynb": PAGE_03, "ana/04.ipynb": PAGE_04}
-    book = graded(files, observer, Points({"03a": 10.0, "04a": 0.0}))
+    book = graded(files, Observer(Evidence("ended")), Points({"03a": 10.0, "04a": 0.0}))
     (mark,) = book.learners[0].marks
     assert (mark.exercise, mark.out_of) == ("03a", 10.0)
-    assert [job.exercise for job in observer.jobs] == ["03a"]
 
 
-def test_what_was_done_to_find_an_answer_is_in_its_mark(graded):
-    lost = notebook(cell(DONE, id="other", exercise="03a"), lesson="03_write")
-    gone = notebook(cell("# Write", "markdown"), lesson="03_write")
-    files = {"ana/03.ipynb": lost, "ben/03.ipynb": gone, "cy/notes.docx": "x"}
-    ana, ben, cy = graded(files, Observer()).learners
-    assert "another id" in " ".join(ana.marks[0].repairs)
-    mark, said = ben.marks[0], "Its cell is not on the page."
+def test_an_answer_that_no_cell_names_is_not_there(graded):
+    gone = notebook(cell("# Write", "markdown"), cell("x = 1"), lesson="03_write")
+    files = {"ben/03.ipynb": gone, "cy/notes.docx": "x"}
+    missing = Evidence("ended", raised="NameError", text="name 'Beat' ...", is_missing=True)
+    ben, cy = graded(files, Observer(missing)).learners
+    mark, said = ben.marks[0], "No cell of the page defines it."
     assert (mark.status, mark.evidence, mark.cause) == ("not attempted", said, said)
-    assert mark.repairs == (said,)
     assert [one.about for one in cy.remarks] == ["left-out"]
 
 
@@ -253,14 +275,19 @@ def test_a_cell_that_cannot_be_run_is_told_why(raised, text, mistake, hint):
 
 # Two sorts of lines.
 
-JOB = Job("03a", "Beat", "class Beat: ...\n", ("a = 1",), "import rclpy", ("x = 2",), given="{}")
+JOB = PageJob("03", (PageCell("class Beat: ...\n", 2, "03a"),), {"03a": "Beat"})
 
 
 # Workers, whatever happens to any of them.
 
 
 def job(word):
-    return Job("03a", "Beat", word)
+    return PageJob("03", (PageCell(word),), {"03a": "Beat"})
+
+
+def only(evidence):
+    """The evidence of the one exercise of a page."""
+    return evidence.exercises["03a"]
 
 
 def is_alive(pid):
@@ -277,7 +304,7 @@ def notes(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
     (tmp_path / "notes").touch()
     went_well = Evidence("ended", seen=to_json(Observation(5, 0, logs=(HEARD,))))
-    (tmp_path / "notes.rehearsal").write_text(to_line(went_well))
+    (tmp_path / "notes.rehearsal").write_text(to_line(PageEvidence({"03a": went_well})))
     given = {NOTES: str(tmp_path / "notes")}
 
     def all_of_it():
@@ -301,7 +328,7 @@ def test_each_job_is_done_once_and_known_by_its_key(notes):
     words = [f"job{number} \u00e9\ud800" for number in range(40)]
     with Pool(3) as pool:
         found = done(pool, *words)
-    assert {key: seen.seen for key, seen in found.items()} == {one: one for one in words}
+    assert {key: only(seen).seen for key, seen in found.items()} == {one: one for one in words}
     assert len(notes("job")) == 40
     assert len(notes("start")) == 3
 
@@ -314,9 +341,9 @@ def test_a_job_that_loses_two_workers_is_given_up_and_the_others_go_on(notes, tm
         found = dict(pool.observe([[(one, job(one)) for one in words], [("job4", job("job4"))]]))
         assert len(pool.pids) == 2
         assert done(pool) == {}
-    lost = [key for key, seen in found.items() if seen.how == LOST]
+    lost = [key for key, seen in found.items() if only(seen).how == LOST]
     assert lost == ["die", "half", "nonsense", "forged"]
-    assert {seen.how for key, seen in found.items() if key not in lost} == {"ended"}
+    assert {only(seen).how for key, seen in found.items() if key not in lost} == {"ended"}
     assert [one for one in found if one != "job4"] == words
     assert len(set(notes("half"))) == len(set(notes("die-once"))) == 2
     assert len(notes("start --unsafe-no-sandbox")) == len(notes("start"))
@@ -325,7 +352,7 @@ def test_a_job_that_loses_two_workers_is_given_up_and_the_others_go_on(notes, tm
 def test_a_silent_worker_is_replaced(notes):
     with Pool(1, patience=1.5) as pool:
         found = done(pool, "silent", "job")
-    assert {key: seen.how for key, seen in found.items()} == {"silent": LOST, "job": "ended"}
+    assert {key: only(seen).how for key, seen in found.items()} == {"silent": LOST, "job": "ended"}
     assert not any(map(is_alive, notes("start")))
 
 
@@ -350,7 +377,7 @@ def test_nothing_is_left_when_somebody_stops_in_the_middle(notes, eventually):
     assert pool.pids == pids  # and nobody takes its place
     assert not any(map(is_alive, pids))
     worker = Worker()
-    assert [one.how for one in worker.observe([job("job")])] == ["ended"]
+    assert [only(one).how for one in worker.observe([job("job")])] == ["ended"]
     worker.kill()
     assert list(worker.observe([job("job")])) == []
     worker.close()
@@ -380,11 +407,12 @@ HEARD = LogRecord(1_000_000_000, "INFO", "rehearsal", "21.0", "hear", 12)
 )
 def test_a_rehearsal_that_fails_says_why_and_nobody_is_graded(seen, said):
     with pytest.raises(GradingError, match=said) if said else nullcontext():
-        module._require_rehearsed(seen)
+        module._require_rehearsed(PageEvidence({"03a": seen}))
 
 
 # For real.
 
+CHECK = 'check("03a", HumiditySensor)'
 IMPORTS = "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import Float32"
 RIGHT = """
 class HumiditySensor(Node):
@@ -401,7 +429,9 @@ class HumiditySensor(Node):
 
 
 def answer(text):
-    return Job("03a", "HumiditySensor", text, imports=f"import random\n{IMPORTS}")
+    imports = f"import random\n{IMPORTS}\nfrom rosbeat import check"
+    cells = [PageCell(imports), PageCell(text, 1, "03a"), PageCell(CHECK, 2, checks=("03a",))]
+    return PageJob("03", tuple(cells), {"03a": "HumiditySensor"})
 
 
 @pytest.mark.ros
@@ -462,7 +492,7 @@ def test_who_loses_its_watchers_is_tried_once_more_and_given_up(sleeping, eventu
         (keeper if which == "keeper" else init).kill()
         killed.add(worker.pid)
         eventually(lambda gone=worker.pid: not is_alive(gone), 30)
-    assert dict(found)["b"].how == LOST
+    assert only(dict(found)["b"]).how == LOST
     assert len(killed) == 2
 
 
@@ -510,11 +540,11 @@ def test_pages_before_leave_their_folders_and_files_and_are_run_once(monkeypatch
         return Report(())
 
     monkeypatch.setattr(module, "catch_up", made)
-    typed = Job("05a", "x", "y", replay=("y",), page="05")
+    typed = PageJob("05", (PageCell("%%terminal a"),), {"05a": "x"}, needs_files=True)
     assert module.with_files(JOB) is JOB
     for _ in range(2):
         sent = module.with_files(typed)
-        assert read_line(Job, to_line(sent)).files == {
+        assert read_line(PageJob, to_line(sent)).files == {
             "src/": "",
             "src/a.py": "\xff\0",
             "src/deep/": "",
@@ -538,8 +568,8 @@ def test_two_pages_of_one_learner_start_from_their_own_workspace():
     right = next(one for one in usable("01a") if one.status == "passed")
     wrong = next(one for one in usable("01a") if one.status == "failed")
     with Pool(1) as pool:
-        seen = dict(pool.observe([[(one.status, handed_in(one).job) for one in (right, wrong)]]))
-    found = {status: judge(EXERCISES["01a"], one) for status, one in seen.items()}
+        seen = dict(pool.observe([[(one.status, page_of([one])) for one in (right, wrong)]]))
+    found = {status: judge(EXERCISES["01a"], one.exercises["01a"]) for status, one in seen.items()}
     assert {status: one.status for status, one in found.items()} == {
         "passed": "passed",
         "failed": "failed",
@@ -548,16 +578,46 @@ def test_two_pages_of_one_learner_start_from_their_own_workspace():
 
 
 @pytest.mark.ros
-def test_the_clock_of_a_learner_runs_on(monkeypatch):
-    """Endless answers use up the time, and the second one has less; see `hostile.brief_worker`."""
+def test_what_does_not_end_is_ended_and_the_page_goes_on(monkeypatch):
+    """A cell that no interrupt ends takes its process along; see `hostile.brief_worker`."""
     monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
     monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
     idle = "__import__('time').sleep(0.01)"  # the processors are for other tests
     interrupted = f"while True:\n    {idle}"  # as a learner ends it
     goes_on = f"while True:\n    try:\n        {idle}\n    except BaseException:\n        pass"
     with Pool(1) as pool:
-        texts = [interrupted, goes_on, RIGHT]
-        found = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))
-    assert [found[n].how for n in range(3)] == ["ended", "deadline", "ended"]
-    assert [found[n].raised for n in range(3)] == ["KeyboardInterrupt", "", ""]
-    assert found[1].seconds < 3.4  # the first one has used up some of its 3.5 s
+        texts = [interrupted, goes_on, f"import os\n{RIGHT}", f"{RIGHT}\nos._exit(3)"]
+        seen = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))
+    found = [only(seen[n]) for n in range(4)]
+    assert [one.how for one in found] == ["ended", "deadline", "ended", "ended"]
+    assert [one.raised for one in found] == ["KeyboardInterrupt", "", "", ""]
+
+
+# A page in a sandbox, and what of it goes on.
+
+GOES_ON = [
+    ("an exception", "1 / 0"),
+    ("a syntax error", "class ("),
+    ("exit", "exit()"),
+    ("sys.exit", "import sys\nsys.exit(3)"),
+    ("the end of the process", "import os\nos._exit(0)"),
+    ("a crash", "import ctypes\nctypes.string_at(0)"),
+    ("all descriptors closed", "import os\nos.closerange(3, 100)"),
+    ("another check", "check = print"),
+    ("a question", "name = input('Name?')"),
+    ("a debugger", "breakpoint()"),
+    ("a loop in a loop", "import asyncio\nasyncio.run(asyncio.sleep(0))"),
+]
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("text", [text for _, text in GOES_ON], ids=[name for name, _ in GOES_ON])
+def test_a_page_goes_on_after(text):
+    job = answer(RIGHT)
+    cells = (job.cells[0], PageCell(text, 1), *job.cells[1:])
+    with Pool(1) as pool:
+        ((_, seen),) = pool.observe([[(1, replace(job, cells=cells))]])
+    outcome = judge(EXERCISES["03a"], only(seen))
+    if text == "check = print":  # so the check was never made, as on the page
+        assert only(seen).seen, only(seen)
+    assert outcome.status == "passed", (outcome, only(seen))
