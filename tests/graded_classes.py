@@ -62,7 +62,7 @@ def one_of_each():
             mark("04a", "not attempted", evidence="There is still a blank, ____."),
             mark("04b", "held", cause="It used more memory than there is.", late=True,
                  answer="import os\nclass A: pass", file="ana/04.ipynb"),
-            mark("04c", repairs=("Its cell has lost its name.",), manual=True, points=0.5,
+            mark("04c", differs="The page shows that it has passed.", manual=True, points=0.5,
                  comment="A nice idea.\nNext time with a shorter name?"),
             mark("05a", "missing", cause="The page was not handed in."),
             mark("05b", "missing", cause="The page was not handed in."),
@@ -100,7 +100,7 @@ def hostile_learner(text):
     trace = trace_of(observation(f"/{text}", (text, "x"), f"/{text}"))
     marks = [
         mark(status=status, title=text, cause=text, mistake=text, evidence=text, hint=text,
-             remarks=(text,), parts=(part,), repairs=(text,), comment=text, answer=text, file=text,
+             remarks=(text,), parts=(part,), differs=text, comment=text, answer=text, file=text,
              source=text, trace=trace)
         for status in ("passed", "failed", "held", "looked at", "missing", "not attempted", text)
     ]  # fmt: skip
@@ -134,7 +134,7 @@ def _learner(number, names, dice):
 def _random_mark(name, dice):
     status = dice.choice(_STATUSES)
     if status != "failed":
-        repairs = ("Its cell was split.",) if status == "passed" and dice.random() < 0.02 else ()
-        return mark(name, status, repairs=repairs)
+        differs = "The page shows another outcome." if dice.random() < 0.02 else ""
+        return mark(name, status, differs=differs)
     chosen = dice.choice((*_MISTAKES, *_MISTAKES[:2], "new-to-me"))
     return mark(name, status, mistake=chosen, hint=f"Look at {chosen}.", evidence="It was seen.")

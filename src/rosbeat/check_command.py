@@ -21,6 +21,7 @@ from nbclient.exceptions import DeadKernelError
 
 from rosbeat.authoring.execution import KernelPlace, kernel_place
 from rosbeat.errors import ExerciseError
+from rosbeat.exercises.cells import checks_in
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.outcome_display import MIME, OPEN, RIGHT, WRONG
 from rosbeat.records_json import to_json
@@ -117,9 +118,9 @@ def _no_page(path: Path, why: str) -> ExerciseError:
 
 
 def _checks(notebook: nbformat.NotebookNode) -> dict[str, nbformat.NotebookNode]:
-    """Return the cells that check an exercise, by the exercise."""
-    named = ((cell.metadata.get("rosbeat", {}).get("check"), cell) for cell in notebook.cells)
-    return {str(exercise): cell for exercise, cell in named if exercise}
+    """Return the cells that check an exercise, by the exercise; the last one counts."""
+    code = (cell for cell in notebook.cells if cell.cell_type == "code")
+    return {exercise: cell for cell in code for exercise in checks_in(cell.source)}
 
 
 def _execute(path: Path, notebook: nbformat.NotebookNode) -> str:

@@ -9,8 +9,8 @@ from rosbeat.grading import worker
 def main(options):
     """Answer jobs, with other limits."""
     worker.WALL = 8.0
-    # To use up a whole gigabyte takes a busy machine seconds; an answer needs less than 50 MB.
-    worker.Limits = partial(worker.Limits, memory=200 * 1_000_000)
+    # To use up a whole gigabyte takes a busy machine seconds; a page needs half of this.
+    worker.Limits = partial(worker.Limits, memory=300 * 1_000_000)
     prepare = worker.prepare
 
     def prepare_with_less_time():

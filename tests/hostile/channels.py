@@ -3,13 +3,10 @@
 from hostile.deed import WRONG, Deed, before
 
 _FORGED = '{"seen": "{}"}'
-#: Finds what runs the page in the frames below the cell, and writes as it does.
-_FRAMES = """
-import json, os, sys
-frame = sys._getframe()
-while not hasattr(frame.f_locals.get("self"), "_patience"):
-    frame = frame.f_back
-page = frame.f_locals["self"]
+#: Finds what runs the page, and writes as it does.
+FIND_PAGE = """
+import gc, json, os, sys
+(page,) = (one for one in gc.get_objects() if type(one).__name__ == "_Page")
 
 def write(**said):
     page._write({"evidence": "03a", **said})
@@ -17,7 +14,7 @@ def write(**said):
     os._exit(0)
 """
 #: The true evidence of the answer itself, changed.
-_TRUE = f"""{_FRAMES}
+_TRUE = f"""{FIND_PAGE}
 from rosbeat.exercises.registry import scenario
 from rosbeat.exercises.evidence import to_json
 
@@ -75,7 +72,7 @@ DEEDS = (
     Deed(
         "a sealed result that is no evidence",
         before(
-            f"{_FRAMES}\nwrite(seen='[]')",
+            f"{FIND_PAGE}\nwrite(seen='[]')",
             WRONG,
         ),
         words="cannot be",
@@ -83,20 +80,20 @@ DEEDS = (
     Deed(
         "a sealed result of other types",
         before(
-            f"{_FRAMES}\nwrite(seen=1, raised=2, line=[])",
+            f"{FIND_PAGE}\nwrite(seen=1, raised=2, line=[])",
             WRONG,
         ),
         words="",
     ),
     Deed(
         "a sealed result, deeply nested",
-        before(f"{_FRAMES}\nwrite(said='[' * 100_000)", WRONG),
+        before(f"{FIND_PAGE}\nwrite(said='[' * 100_000)", WRONG),
         words="seal",
     ),
     Deed(
         "a forged observation with the seal",
         before(
-            f"{_FRAMES}\nfrom rosbeat.exercises.registry import scenario\n"
+            f"{FIND_PAGE}\nfrom rosbeat.exercises.registry import scenario\n"
             "from rosbeat.exercises.evidence import to_json\n"
             "class Right(Node):\n    def __init__(self):\n"
             "        super().__init__('humidity_sensor')\n"
@@ -136,7 +133,7 @@ DEEDS = (
     Deed(
         "a sealed result of ten million lists",
         before(
-            f"{_FRAMES}\nbig = json.dumps('[' + '[],' * 10_000_000 + '[]]')\nwrite(seen=big)",
+            f"{FIND_PAGE}\nbig = json.dumps('[' + '[],' * 10_000_000 + '[]]')\nwrite(seen=big)",
             WRONG,
         ),
         words="",
@@ -144,7 +141,7 @@ DEEDS = (
     Deed(
         "a sealed exception in other alphabets",
         before(
-            f"{_FRAMES}\nodd = '=1+1' + chr(0x202e) + chr(0xdfff) + chr(27) + '[2J' + chr(7)\n"
+            f"{FIND_PAGE}\nodd = '=1+1' + chr(0x202e) + chr(0xdfff) + chr(27) + '[2J' + chr(7)\n"
             "said = {'raised': '<b>' + odd, 'text': odd, 'line': 10**15,\n"
             "        'code': '<script>alert(1)</script>' + odd}\n"
             "write(**said)",

@@ -4,7 +4,7 @@ All are wrong answers. What was made in advance does not fit the seed of the cla
 right answer, such as the times of each message, does: there is a solution inside.
 """
 
-from hostile.channels import _FRAMES
+from hostile.channels import FIND_PAGE
 from hostile.deed import WRONG, Deed, before
 
 _EMPTY = "class HumiditySensor(Node):\n    def __init__(self):\n        super().__init__('x')\n"
@@ -18,9 +18,9 @@ def find(name):
 
 DEEDS = (
     Deed(
-        "evidence written by the observer's own frame",
+        "evidence written by what runs the page",
         before(
-            f"{_FRAMES}\nfrom rosbeat.exercises.registry import EXERCISES\n"
+            f"{FIND_PAGE}\nfrom rosbeat.exercises.registry import EXERCISES\n"
             "class Right(Node):\n    def __init__(self):\n"
             "        super().__init__('humidity_sensor')\n"
             "        self.p = self.create_publisher(Float32, 'humidity', 5)\n"
@@ -49,7 +49,8 @@ DEEDS = (
     Deed(
         "evidence by another to_json",
         before(
-            "import sys\nmodule = sys.modules['rosbeat.grading.page_process']\nreal = module.to_json\n"
+            "import sys\nmodule = sys.modules['rosbeat.grading.page_process']\n"
+            "real = module.to_json\n"
             "def fake(seen):\n"
             "    import dataclasses\n"
             "    samples = tuple(dataclasses.replace(one, time_ns=(n + 1) * 500_000_000)\n"

@@ -164,7 +164,7 @@ UPLOADS = (
     Upload("odd types", {PAGE: page(WRONG, _odd_types)}, "failed"),
     Upload("sources that are numbers", {PAGE: page(RIGHT, _sources_are_numbers)}, ""),
     Upload("a hidden base", {PAGE: page(RIGHT, _hidden_base)}, "passed"),
-    Upload("magics", {PAGE: page("%run /etc/passwd\n" + RIGHT)}, "failed", ""),
+    Upload("magics", {PAGE: page("%run /etc/passwd\n" + RIGHT)}, "passed", ""),
     Upload("a shell escape", {PAGE: page("!cat /etc/passwd\n" + RIGHT)}, "passed", ""),
     Upload("a cell magic", {PAGE: page("%%bash\ncat /etc/passwd")}, "not attempted", ""),
     Upload("a terminal where none is", {PAGE: page("%%terminal x\nid")}, "not attempted", ""),

@@ -262,6 +262,18 @@ def register(shell: Shell) -> None:
         shell.events.register("post_run_cell", cells.end)
 
 
+_CHECK = re.compile(r"""(?m)^[^#\n]*?\bcheck\(\s*(?:exercise\s*=\s*)?["']\s*(\w+)\s*["']""")
+
+
+def checks_in(source: str) -> tuple[str, ...]:
+    """Return the ids of the exercises that a cell checks, in order.
+
+    Args:
+        source: The cell's text, which need not be Python.
+    """
+    return tuple(dict.fromkeys(name.lower() for name in _CHECK.findall(source)))
+
+
 def _answer_in(source: str, exercise: str) -> ast.expr | None:
     """Return what a cell hands to `check` as the answer to an exercise; None if that is not clear.
 

@@ -399,8 +399,9 @@ def _observer(options: argparse.Namespace) -> Observe:
 
 
 def _waiting(gradebook: Gradebook) -> bool:
-    held = any(mark.status == HELD for one in gradebook.learners for mark in one.marks)
-    return held or any(one.about in _FOR_A_PERSON for one in gradebook.remarks)
+    marks = [mark for one in gradebook.learners for mark in one.marks]
+    waiting = any(mark.status == HELD or (mark.differs and not mark.manual) for mark in marks)
+    return waiting or any(one.about in _FOR_A_PERSON for one in gradebook.remarks)
 
 
 def _summary_json(gradebook: Gradebook, out: Path, code: int) -> str:

@@ -26,7 +26,7 @@ from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
 _BYTE_ORDER_MARK = "\ufeff"
 _GRADES = (
     *("learner", "name", "system", "page", "exercise", "title", "status", "points", "out_of"),
-    *("cause", "mistake", "late", "judged", "manual", "comment", "repairs"),
+    *("cause", "mistake", "late", "judged", "manual", "comment", "differs"),
 )
 _MOODLE = (
     *("Identifier", "Full name", "Email address", "Status", "Grade", "Maximum Grade"),
@@ -61,7 +61,7 @@ def _row(graded: Graded, mark: Mark) -> tuple[str | float, ...]:
             mark.mistake,
             _yes(mark.late),
         ),
-        *(mark.judged, _yes(mark.manual), mark.comment, " ".join(mark.repairs)),
+        *(mark.judged, _yes(mark.manual), mark.comment, mark.differs),
     )
 
 

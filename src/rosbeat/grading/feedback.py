@@ -94,6 +94,8 @@ def _details(mark: Mark) -> Iterator[tuple[str, str]]:
         yield "More help", html(call, mark.exercise)
     for remark in mark.remarks:
         yield "Worth knowing", paragraph(remark)
+    if mark.differs:
+        yield "Your page and its run", paragraph(mark.differs)
     if mark.manual:
         yield "Points", "Your instructor has set the points of this exercise."
     if mark.comment.strip():

@@ -38,7 +38,8 @@ class Mark:
         hint: What to think about next.
         remarks: What is worth knowing although the answer is right.
         parts: The requirements, if there are points for each.
-        repairs: What was done to find the answer on the page, a sentence each.
+        differs: What the run says of an exercise that has passed by the page's own stored output;
+            empty if they agree.
         judged: Points before anything was taken off for being late, and before a manual mark.
         manual: Whether a person has set the points.
         comment: What a person has written to the learner.
@@ -62,7 +63,7 @@ class Mark:
     hint: str = ""
     remarks: tuple[str, ...] = ()
     parts: tuple[Part, ...] = ()
-    repairs: tuple[str, ...] = ()
+    differs: str = ""
     judged: float = 0.0
     manual: bool = False
     comment: str = ""

@@ -33,7 +33,6 @@ from typing import Any
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from rosbeat import record_display
 from rosbeat.exercises import cells as exercise_cells
 from rosbeat.exercises import check as check_module
 from rosbeat.exercises.evidence import to_json
@@ -142,7 +141,7 @@ def _write_all(descriptor: int, text: str) -> None:
 
 
 class TooMuchOutput(KeyboardInterrupt):
-    """Ends a cell that prints without end."""
+    """End a cell that prints without end."""
 
 
 class _Sink(io.TextIOBase):
@@ -224,6 +223,9 @@ class _Shell(InteractiveShell):
 
     def showtraceback(self, *_: object, **__: object) -> None:
         """Show nothing: nobody reads it, and to format an exception may take for ever."""
+
+    def enable_gui(self, gui: object = None) -> None:
+        """Open no windows: `%matplotlib inline` needs none."""
 
     def ask_exit(self) -> None:
         """Go on: `exit` and `quit` end no page that runs from top to bottom."""
@@ -453,7 +455,6 @@ def _new_shell() -> Any:  # noqa: ANN401 - IPython carries no types
     config.InteractiveShell.colors = "NoColor"
     shell: Any = _Shell.instance(config=config)
     exercise_cells.register(shell)
-    record_display.register(shell)
     register_commands(shell)
     return shell
 

@@ -42,7 +42,7 @@ _ABOUT = {
     "wrong-course": "Notebooks of another course",
     "unreadable": "Files that cannot be read",
     "left-out": "Files that were left out",
-    "reaches-inside": "Answers that reach for what observes them; their marks stand",
+    "reaches-inside": "Pages that reach for what observes them; their marks stand",
     "manual": "Lines of manual.csv that need a look",
     "roster": "Lines of the roster that need a look",
 }
@@ -73,10 +73,10 @@ def class_report(book: Gradebook) -> str:
                 name(one.called),
                 f"{mark.exercise} {mark.title}",
                 name(own_path(mark.file)),
-                most(mark.cause, _MOST),
+                most(mark.differs or mark.cause, _MOST),
             )
             for one, mark in all_marks(book)
-            if mark.status == HELD
+            if mark.status == HELD or mark.differs
         ],
         learners=_learners(book),
         files=[(caption, head, rows) for caption, head, rows in _files(book) if rows],
@@ -116,13 +116,6 @@ def _files(book: Gradebook) -> Iterator[tuple[str, tuple[str, ...], _Rows]]:
     for about in sorted(found):
         head = ("Learner", "File", "What was found")
         yield _ABOUT.get(about) or most(about, _MOST), head, found[about]
-    repaired = [(learner, mark) for learner, mark in all_marks(book) if mark.repairs]
-    head = ("Learner", "Exercise", "What was found")
-    yield "Answers that were not where they belong", head, [_repaired(*one) for one in repaired]
-
-
-def _repaired(learner: Graded, mark: Mark) -> tuple[str, ...]:
-    return name(learner.name), mark.exercise, most(" ".join(mark.repairs), _MOST)
 
 
 # Counting: pure functions of a gradebook.

@@ -150,6 +150,10 @@ def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
     if files:
         told = ", ".join(f"{times} {about}" for about, times in sorted(files.items()))
         yield f"{count(files.total(), 'remark')} about files: {told}."
+    differ = sum(bool(mark.differs) for mark in marks)
+    if differ:
+        outcomes = count(differ, "exercise")
+        yield f"Another outcome than the page shows: {outcomes}; class.html says which."
     held = sum(mark.status == HELD for mark in marks)
     if held:
         file = printable(str(out / MANUAL), 1000)

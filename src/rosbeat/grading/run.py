@@ -18,7 +18,6 @@ from rosbeat.grading.ledger import Ledger, key_of
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Points, Solution, scaled
 from rosbeat.grading.notebook import Cell, CoursePage
 from rosbeat.grading.submissions import (
-    DIFFERS,
     REACHES_INSIDE,
     Collection,
     HandedIn,
@@ -91,7 +90,7 @@ def grade(
 
 def _published(page: CoursePage, plan: Plan) -> SubmittedPage:
     """Return the published solution of a page, as if a learner had handed it in."""
-    return submitted_page(page, plan.solved.get(page.lesson, page.cells), plan.seed)
+    return submitted_page(page, plan.solved.get(page.lesson) or page.cells, plan.seed)
 
 
 def _key(page: SubmittedPage, exercise: str, plan: Plan) -> str:
@@ -193,19 +192,15 @@ def _remarks(one: Submission, submitted: Pages, plan: Plan, ledger: Ledger) -> I
                 f"The page {printable('; '.join(reaches[:3]), 300)}. The marks stand; look at it."
             )
             yield Remark(REACHES_INSIDE, handed.path, text)
-        for answer, key in zip(page.answers, keys, strict=True):
-            outcome = ledger.get(key)
-            is_other = outcome is not None and outcome.status != PASSED
-            if answer.stored == PASSED and is_other and plan.out_of(answer.exercise) > 0:
-                yield Remark(DIFFERS, handed.path, _differs(answer.exercise, outcome))
 
 
-def _differs(exercise: str, outcome: Outcome | None) -> str:
-    """Say that a page shows another outcome than its run."""
-    cause = cause_of(outcome) if outcome else ""
+def _differs(answer: Answer, outcome: Outcome) -> str:
+    """Say that a page shows another outcome than its run; nothing if it does not."""
+    if answer.stored != PASSED or outcome.status == PASSED:
+        return ""
     return (
-        f"Exercise {exercise}: the page shows that it has passed, and when it is run from top to "
-        f"bottom it does not: {cause} Cells may have run in another order, or were changed since."
+        "The page shows that it has passed; run from top to bottom, it has not. "
+        f"{cause_of(outcome)} Cells may have run in another order, or were changed since."
     )
 
 
@@ -226,6 +221,7 @@ def _mark(
         hint=outcome.hint,
         remarks=outcome.remarks,
         parts=outcome.parts,
+        differs=_differs(answer, outcome),
         judged=points,
         late=handed.late,
         source=answer.source,

@@ -24,8 +24,6 @@ MARKER = ".rosbeat-release.json"
 #: What a remark is about that is for the instructor only: an answer that reaches for what runs and
 #: observes it.
 REACHES_INSIDE = "reaches-inside"
-#: What a remark is about that needs a person: a page that shows another outcome than its run.
-DIFFERS = "differs"
 
 
 @dataclass(frozen=True)
@@ -36,8 +34,7 @@ class Remark:
         about: What it is: `late`, `duplicate`, `renamed`, `empty`, `wrong-course`, `unreadable`
             or `left-out`; or `manual`, a line of `manual.csv`; or
             `roster`, a line of the roster or somebody who is not on it; or `reaches-inside`, an
-            page that reaches for what observes it; or `differs`, a page that shows another
-            outcome than its run.
+            page that reaches for what observes it.
         path: The file, as it was named, made safe to print.
         text: One sentence about what was found and what was done.
     """

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
 
+from rosbeat.exercises.cells import checks_in
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.jobs import PageCell, PageJob
 from rosbeat.grading.notebook import Cell, CoursePage
@@ -23,7 +24,6 @@ from rosbeat.grading.notebook import Cell, CoursePage
 #: What is said of an answer if no cell of the page names it.
 NOT_THERE = "No cell of the page defines it."
 _BITS = 63
-_CHECK = re.compile(r"""(?m)^[^#\n]*?\bcheck\(\s*(?:exercise\s*=\s*)?["']\s*(\w+)\s*["']""")
 #: What a learner writes into a prediction or a quiz, which changes nothing else of its cell.
 _GUESS = re.compile(r"""\bpredict\(\s*(?:"[^"\n]*"|'[^'\n]*')""")
 _CHOICES = re.compile(r"""\bquiz\((?:\s*(?:"[^"\n]*"|'[^'\n]*')\s*,?)*\)""")
@@ -76,7 +76,7 @@ def submitted_page(page: CoursePage, cells: Sequence[Cell], secret: int = 0) -> 
     if not exercises or [cell.source for cell in code] == released:
         return SubmittedPage(None, answers)
     run = _to_run(page, code)
-    digest = _digest(run)
+    digest = _digest(code)
     job = PageJob(
         page.number,
         run,
@@ -94,7 +94,7 @@ def submitted_page(page: CoursePage, cells: Sequence[Cell], secret: int = 0) -> 
 # What is drawn for a page.
 
 
-def _digest(cells: Iterable[PageCell]) -> str:
+def _digest(cells: Iterable[Cell]) -> str:
     text = json.dumps([cell.source for cell in cells])
     return sha256(text.encode()).hexdigest()
 
@@ -108,11 +108,6 @@ def _seed(secret: int, digest: str, exercise: str) -> int:
 
 
 # The cells to run.
-
-
-def checks_in(source: str) -> tuple[str, ...]:
-    """Return the exercises that a cell checks, in order."""
-    return tuple(dict.fromkeys(name.lower() for name in _CHECK.findall(source)))
 
 
 @lru_cache(maxsize=256)
@@ -132,13 +127,17 @@ def _to_run(page: CoursePage, code: Sequence[Cell]) -> tuple[PageCell, ...]:
     left = [cell for cell in code if _is_left_out(cell, released)]
     kept = [cell for cell in code if cell not in left]
     own = [cell for cell in kept if _shape(cell.source) not in released]
-    touched = _words(own)
-    needed = [cell for cell in left if _names(cell.source).touched & touched]
-    while needed:
+    words = frozenset(word for cell in own for word in _WORD.findall(cell.source))
+    needed = [cell for cell in left if _names(cell.source).touched & words]
+    left = [cell for cell in left if cell not in needed]
+    kept += needed
+    while True:
+        names = words.union(*(_names(cell.source).free for cell in kept if cell not in own))
+        needed = [cell for cell in left if _names(cell.source).bound & names]
+        if not needed:
+            break
         kept += needed
         left = [cell for cell in left if cell not in needed]
-        words = _words(kept)
-        needed = [cell for cell in left if _names(cell.source).bound & words]
     return tuple(
         PageCell(
             cell.source,
@@ -156,10 +155,6 @@ def _is_left_out(cell: Cell, released: Mapping[str, Cell]) -> bool:
     return ours is not None and ours.shows
 
 
-def _words(cells: Iterable[Cell]) -> frozenset[str]:
-    return frozenset(word for cell in cells for word in _WORD.findall(cell.source))
-
-
 def _shape(source: str) -> str:
     """Return a cell's text without what a learner guesses in it."""
     return _CHOICES.sub("quiz()", _GUESS.sub("predict(____", source)).strip()
@@ -167,30 +162,51 @@ def _shape(source: str) -> str:
 
 @dataclass(frozen=True)
 class _Names:
-    """Hold names of a cell: those that it defines, and those of objects that it may change."""
+    """Hold names of a cell of the course's own.
 
-    bound: frozenset[str]
-    touched: frozenset[str]
+    Attributes:
+        bound: Those that it defines.
+        free: Those that it may ask for, since it has not defined them before.
+        touched: Those of objects that it may change, and those that it defines.
+    """
+
+    bound: frozenset[str] = frozenset()
+    free: frozenset[str] = frozenset()
+    touched: frozenset[str] = frozenset()
 
 
 @lru_cache(maxsize=1024)
 def _names(source: str) -> _Names:
-    """Return the names in a cell of the course's own; those of a cell of a terminal are its."""
+    """Return the names of a cell; a cell of a terminal has that of the terminal."""
     terminal = _TERMINAL.match(source)
     if terminal:
-        return _Names(frozenset((terminal[1],)), frozenset((terminal[1],)))
+        name = frozenset((terminal[1],))
+        return _Names(name, name, name)
+    try:
+        statements = ast.parse(source).body
+    except SyntaxError:  # another command of a page
+        return _Names(free=frozenset(_WORD.findall(source)))
     bound: set[str] = set()
+    free: set[str] = set()
     used: set[str] = set()
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            bound.add(node.id)
-        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            bound.add(node.name)
-        elif isinstance(node, ast.alias):
-            bound.add((node.asname or node.name).split(".")[0])
-        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            used.add(node.value.id)
-    return _Names(frozenset(bound), frozenset(bound | used - _OF_THE_COURSE))
+    for statement in statements:
+        nodes = list(ast.walk(statement))
+        names = [node for node in nodes if isinstance(node, ast.Name)]
+        loaded = {node.id for node in names if not isinstance(node.ctx, ast.Store)}
+        free |= loaded - bound
+        bound |= {node.id for node in names if isinstance(node.ctx, ast.Store)}
+        bound |= {name for node in nodes for name in _defined_by(node)}
+        attributes = [node.value for node in nodes if isinstance(node, ast.Attribute)]
+        used |= {value.id for value in attributes if isinstance(value, ast.Name)}
+    return _Names(frozenset(bound), frozenset(free), frozenset(bound | used - _OF_THE_COURSE))
+
+
+def _defined_by(node: ast.AST) -> tuple[str, ...]:
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return (node.name,)
+    if isinstance(node, ast.alias):
+        return ((node.asname or node.name).split(".")[0],)
+    return ()
 
 
 # What a person reads of an answer.

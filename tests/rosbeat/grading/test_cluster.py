@@ -163,8 +163,8 @@ def test_nothing_is_left_on_the_workers(cluster, eventually):
 
 def test_a_cluster_with_another_course_is_refused(cluster, monkeypatch, says):
     monkeypatch.setattr(module, "course_version", lambda: "another")
+    job = PageJob("03", (PageCell("class Beat: ..."),), {"03a": "Beat"})
     with Cluster(cluster.scheduler_address) as found, pytest.raises(GradingError) as caught:
-        job = PageJob("03", (PageCell("class Beat: ..."),), {"03a": "Beat"})
         list(found.observe([[("a", job)]]))
     says(caught.value, "another course", "another", "Install the same version")
 

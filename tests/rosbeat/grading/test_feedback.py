@@ -50,7 +50,7 @@ it has no name for this mistake yet
 There is still a blank, ____.
 04b raise the alarm: no points yet
 It used more memory than there is.
-Its cell has lost its name.
+The page shows that it has passed.
 Your instructor has set the points
 A nice idea. Next time with a shorter name?
 It has the exercises 05a, 05b.

@@ -42,7 +42,7 @@ def sections(page):
 
 
 SAID = """
-1 learner, 10 exercises. 1 exercise waits for you to look at.
+1 learner, 10 exercises. 2 exercises wait for you to look at.
 Judged by version 0.1.0
 Median 44 %, mean 44 % of the points.
 A topic name that no other node uses
@@ -50,7 +50,7 @@ Hint for the class: Compare the two names letter by letter.
 03 Write a publisher
 Ana Muster (4711) 04b raise the alarm 04.ipynb It used more memory than there is.
 Ana Muster homework (1).ipynb This is the page 03; it has another name.
-Ana Muster 04c Its cell has lost its name.
+The page shows that it has passed.
 """
 
 

@@ -86,14 +86,14 @@ def test_there_is_a_row_for_each_learner_and_exercise():
 
 
 def test_all_that_matters_stands_in_the_row():
-    said = {"comment": "A nice\nidea.", "repairs": ("One.", "Two."), "cause": "So."}
+    said = {"comment": "A nice\nidea.", "differs": "One. Two.", "cause": "So."}
     made = mark("04c", points=0.5, manual=True, late=True, mistake="boundary", title="calm", **said)
     assert named(grades_csv(book(of("moodle", made)))) == [
         {
             "learner": "4711", "name": "Ana Muster", "system": "moodle", "page": made.page,
             "exercise": "04c", "title": "calm", "status": "passed", "points": "0.5",
             "out_of": "1", "cause": "So.", "mistake": "boundary", "late": "yes", "judged": "0",
-            "manual": "yes", "comment": "A nice idea.", "repairs": "One. Two.",
+            "manual": "yes", "comment": "A nice idea.", "differs": "One. Two.",
         }
     ]  # fmt: skip
 
