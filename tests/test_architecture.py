@@ -105,7 +105,7 @@ FLOORS = (
     (
         {
             *("differences", "errors", "exception_origin", "isolation", "logs", "processes"),
-            *("taking", "qos_events", "recording", "context", "launch", "graph"),
+            *("taking", "qos_events", "recording", "context", "launch", "graph", "ports"),
         },
         {"rclpy"},
     ),
@@ -273,6 +273,22 @@ def wrong_floors(sources):
     return said
 
 
+def names_the_session(sources):
+    """Modules of `ros` below the floor of the session that name `SessionCore`, a type included."""
+    top = len(FLOORS) - 1
+    below = [module for module in sources if floor_of(module) not in (None, top)]
+    return [module for module in below if re.search(r"\bSessionCore\b", code(sources[module]))]
+
+
+def code(source):
+    """A source without its docstrings and comments."""
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = ""
+    return ast.unparse(tree)
+
+
 def public_things(tree, prefix=""):
     """Public classes and functions, methods of public classes included, with their names."""
     for node in tree.body:
@@ -387,7 +403,8 @@ def tracked():
 # The rules hold.
 
 RULES = [wrong_directions, unknown_rooms, rclpy_outside_ros, foreign_imports, cycles,
-         wrong_floors, not_a_verb, unnamed_errors, unexplained, words_of_pages]  # fmt: skip
+         wrong_floors, names_the_session, not_a_verb, unnamed_errors, unexplained,
+         words_of_pages]  # fmt: skip
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -475,6 +492,11 @@ BAD = {
     "waits import messages": (wrong_floors, "rosbeat.ros.waits", "import std_msgs.msg"),
     "nodes import greenlets": (wrong_floors, "rosbeat.ros.processes", "import greenlet"),
     "a module without a floor": (wrong_floors, "rosbeat.ros.cellar", ""),
+    "the engine knows the session": (names_the_session, "rosbeat.ros.engine",
+                                     "def f(core: SessionCore): pass"),
+    "the engine knows its type": (
+        names_the_session, "rosbeat.ros.engine",
+        "if TYPE_CHECKING:\n from rosbeat.ros.session_core import SessionCore"),
     "a noun phrase": (not_a_verb, "rosbeat.a", 'class A:\n """A bag of words."""'),
     "no reason": (unexplained, "rosbeat.a", "import a  # noqa: F401"),
     "no reason, types": (unexplained, "rosbeat.a", "a = b()  # type: ignore[misc, unused-ignore]"),

@@ -31,7 +31,7 @@ from rosbeat.ros.processes import NodeState, callback_name
 from rosbeat.ros.recording import Entity, Message, core_of, type_name
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import Sender
 
 SERVER, CLIENT = "action server", "action client"
 #: The services of an action, behind `/_action/`: their types, and the first word of QoS options.
@@ -50,7 +50,7 @@ class ActionEnd:
 
     def __init__(
         self,
-        core: SessionCore,
+        core: Sender,
         state: NodeState,
         kind: str,
         entity: Any,  # noqa: ANN401 - one of the two

@@ -31,7 +31,7 @@ from rosbeat.ros.recording import in_kernel
 from rosbeat.ros.waits import board_here
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import AllPorts
     from rosbeat.ros.simulated_program import SimulatedProgram
 
 #: No node says anything on file descriptor 2: log lines are printed in the cell that ran the node,
@@ -91,9 +91,9 @@ class SessionContext(Context):
             nothing alive.
     """
 
-    def __init__(self, core: SessionCore, domain_id: int | None) -> None:
+    def __init__(self, core: AllPorts, domain_id: int | None) -> None:
         super().__init__()
-        self.session_core: SessionCore | None = core
+        self.session_core: AllPorts | None = core
         # Always an older one, so that these references never form a circle.
         self.previous: Context | None = rclpy.utilities.g_default_context
         self._is_private = domain_id is None

@@ -49,7 +49,7 @@ from rosbeat.ros.schedule import SUSPICIOUS, ChainGuard
 from rosbeat.ros.waits import _BOARD, Call, Wait
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import Host
 
 #: Virtual nanoseconds that a cell waits for another node at most, in a call without a limit.
 LONGEST_WAIT = 3600 * 1_000_000_000
@@ -75,7 +75,7 @@ class VirtualTime(Executors):
             of the wait; None to let virtual time pass. Only scenarios set it.
     """
 
-    def __init__(self, recorder: Recorder, core: SessionCore, start_ns: int) -> None:
+    def __init__(self, recorder: Recorder, core: Host, start_ns: int) -> None:
         super().__init__(recorder, core)
         self.start_ns = start_ns
         self.is_live = False

@@ -29,8 +29,8 @@ from rosbeat.ros.taking import has_known_group, take_message
 from rosbeat.ros.waits import Call, Switchboard, Wait
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import Host
     from rosbeat.ros.processes import NodeState
-    from rosbeat.ros.session_core import SessionCore
     from rosbeat.ros.wait_set import VirtualWaitSet
 
 #: A loop that looks at the clock or at its queues again and again lets so much time pass, in
@@ -63,7 +63,7 @@ class Executors(Switchboard):
         clocks: All clocks that show virtual time.
     """
 
-    def __init__(self, recorder: Recorder, core: SessionCore) -> None:
+    def __init__(self, recorder: Recorder, core: Host) -> None:
         super().__init__(core.next_number)
         self.timers: WeakValueDictionary[int, Timer] = WeakValueDictionary()
         self.clocks: WeakSet[Any] = WeakSet()

@@ -27,8 +27,8 @@ from rosbeat.ros.processes import Entry
 from rosbeat.ros.taking import take_message
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import Host
     from rosbeat.ros.recording import Entity
-    from rosbeat.ros.session_core import SessionCore
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
 _STOP_TIMEOUT = 2.0
@@ -51,7 +51,7 @@ class LiveExecutor(SingleThreadedExecutor):
     `current` is the node whose callback is running, and `task` its task.
     """
 
-    def __init__(self, context: Context, core: SessionCore) -> None:
+    def __init__(self, context: Context, core: Host) -> None:
         self.current: Node | None = None
         self.task: Task | None = None
         self._core = core

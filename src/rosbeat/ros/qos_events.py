@@ -26,8 +26,8 @@ from rosbeat.ros.processes import Entry, NodeState, callback_name
 from rosbeat.ros.taking import Work, message_work
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import LimitHost
     from rosbeat.ros.recording import Entity, PublisherTap
-    from rosbeat.ros.session_core import SessionCore
 
 # The middleware counts deadlines and lifespans by the wall clock, and in virtual time a minute
 # takes milliseconds. So a publisher or a subscription is made with three years more than the
@@ -252,7 +252,7 @@ class Deadlines(list[Deadline]):
 class Limits:
     """Count the missed deadlines and apply the lifespans of one session."""
 
-    def __init__(self, core: SessionCore) -> None:
+    def __init__(self, core: LimitHost) -> None:
         self._core, self._thread = core, get_ident()
         # By topic: the subscriptions that have a deadline, and how they hear of a message.
         self._waiting: dict[str, list[tuple[Entry, Callable[[], None]]]] = {}

@@ -51,7 +51,7 @@ from rosbeat.ros.exception_origin import asking, is_message_class
 from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import AllPorts
 
 #: What rclpy hands over without a base class or types: the messages, requests, responses, goals and
 #: results of generated classes, and the entities of a node, such as publishers, timers and clients.
@@ -456,19 +456,20 @@ class Unwatched:
     """Mix this into a node of the session's own, so that its session is not told."""
 
 
-def core_of(node: Node) -> SessionCore | None:
-    """Return the `SessionCore` of a node; None if it is in no session, or not yet a node."""
+def core_of(node: Node) -> AllPorts | None:
+    """Return the session of a node; None if it is in no session, or not yet a node."""
     if isinstance(node, Unwatched):
         return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
-    return getattr(node.__dict__.get("_context"), "session_core", None)
+    core: AllPorts | None = getattr(node.__dict__.get("_context"), "session_core", None)
+    return core
 
 
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - passed on
         context: Any = kwargs.get("context") or get_default_context()
-        core = getattr(context, "session_core", None)
+        core: AllPorts | None = getattr(context, "session_core", None)
         name = kwargs.get("node_name", args[0] if args else None)
         with asking("Node.__init__", node, *args, **kwargs):
             if core is None or not isinstance(name, str) or isinstance(node, Unwatched):
@@ -564,7 +565,7 @@ def _refuse_a_message(call: str, kind: object) -> None:
 
 
 def _channel_of_type(
-    node: Node, core: SessionCore, kind: str, msg_type: object, topic: object
+    node: Node, core: AllPorts, kind: str, msg_type: object, topic: object
 ) -> tuple[str, str] | None:
     """Return the full name of a topic that exists with another type, and the name of a channel.
 

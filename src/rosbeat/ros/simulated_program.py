@@ -42,7 +42,7 @@ from rosbeat.ros.recording import invalid_context
 from rosbeat.ros.waits import Call
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import AllPorts
 
 _OWN = str(Path(__file__).parents[1])
 _KNOWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
@@ -72,7 +72,7 @@ class SimulatedProgram:
         SessionError: If `target` is neither a file nor a function.
     """
 
-    def __init__(self, core: SessionCore, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
+    def __init__(self, core: AllPorts, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
         self._target = _checked(target)
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None

@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable
 from functools import wraps
 from types import FrameType
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy import experimental
@@ -22,12 +22,13 @@ from rclpy.task import Future
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.errors import note
+from rosbeat.ros.errors import foreign_node, note
 from rosbeat.ros.recording import core_of
 from rosbeat.ros.waits import board_here
 
-#: A `SessionCore`, or None. Its own type would ask everywhere whether a node is of a session.
-_Core: TypeAlias = Any
+if TYPE_CHECKING:
+    from rosbeat.ros.ports import Spinner
+    from rosbeat.ros.processes import NodeState
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
@@ -46,7 +47,7 @@ def install() -> None:
 def _spin(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(node: Node, executor: Executor | None = None) -> None:
-        core: _Core = core_of(node)
+        core: Spinner | None = core_of(node)
         if core is None:
             _spin_until_interrupt(node, executor or _executor_for(node))
             return
@@ -67,7 +68,7 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
     def spin_once(
         node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
     ) -> None:
-        core: _Core = core_of(node)
+        core: Spinner | None = core_of(node)
         if core is None:
             wait = PULSE if timeout_sec is None else timeout_sec
             original(node, executor=executor, timeout_sec=wait)
@@ -91,7 +92,7 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
         executor: Executor | None = None,
         timeout_sec: float | None = None,
     ) -> None:
-        core: _Core = core_of(node)
+        core: Spinner | None = core_of(node)
         if core is None or _is_simulated(core):
             began = core.virtual.now if core is not None else 0
             original(node, future, executor, timeout_sec)
@@ -99,7 +100,7 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
                 core.virtual.give_way()
             return
         core.refuse_in_callback("rclpy.spin_until_future_complete")
-        core.spin_node(core.state_of(node))
+        core.spin_node(_state_of(core, node))
         if core.live is not None:
             core.live.wait_for(future, timeout_sec)
         else:
@@ -123,14 +124,23 @@ def _refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
     return make
 
 
-def _is_simulated(core: _Core) -> bool:
+def _is_simulated(core: Spinner) -> bool:
     return core.live is None and bool(core.virtual.in_callback)
 
 
-def _may_spin(core: _Core) -> bool:
+def _may_spin(core: Spinner) -> bool:
     """Return whether the caller is the `main` of a program, or a thread of its own."""
     call = core.virtual.current
+    assert call is not None  # code of a node is running
     return call.process.program is not None or call.ident > 0
+
+
+def _state_of(core: Spinner, node: Node) -> NodeState:
+    """Return what is known of a node; raise a NodeClassError if it was destroyed."""
+    state = core.state_of(node)
+    if state is None:
+        raise foreign_node(node, core.name_of(node))
+    return state
 
 
 # In a cell.
@@ -155,10 +165,10 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
         executor.remove_node(node)
 
 
-def _spin_in_session(core: _Core, node: Node) -> None:
+def _spin_in_session(core: Spinner, node: Node) -> None:
     """Run the session's nodes against the wall clock until Interrupt."""
     core.refuse_in_callback("rclpy.spin")
-    state = core.state_of(node)
+    state = _state_of(core, node)
     core.spin_node(state)
     was_live = core.live is not None
     if not was_live:

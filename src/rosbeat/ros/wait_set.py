@@ -29,8 +29,8 @@ from rosbeat.ros.recording import core_of
 from rosbeat.ros.waits import Call, board_here
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import EngineHost
     from rosbeat.ros.recording import Entity
-    from rosbeat.ros.session_core import SessionCore
 
 _WORK = ("subscription", "timer", "client", "service")
 #: A guard condition may only say that the wait set has to be made anew.
@@ -185,7 +185,7 @@ class ProcessExecutor(SingleThreadedExecutor):
     nodes and tasks.
     """
 
-    def __init__(self, core: SessionCore, process: Process) -> None:
+    def __init__(self, core: EngineHost, process: Process) -> None:
         self._core, self._process = core, process
         super().__init__(context=core.context)
 
@@ -275,7 +275,7 @@ def _in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
     @wraps(original)
     def get_nodes(executor: Executor) -> list[Node]:
         nodes = original(executor)
-        core = getattr(executor.context, "session_core", None)
+        core: EngineHost | None = getattr(executor.context, "session_core", None)
         if core is None or core.live is not None:
             return nodes
         states = [(core.state_of(node), node) for node in nodes]
@@ -293,7 +293,7 @@ def _watch_trigger(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def trigger(guard: GuardCondition) -> None:
         original(guard)
-        core = getattr(guard._context, "session_core", None)
+        core: EngineHost | None = getattr(guard._context, "session_core", None)
         if core is not None:
             core.virtual.notify(id(guard.handle))
 
