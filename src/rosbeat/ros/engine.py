@@ -20,7 +20,7 @@ import contextvars
 from asyncio import events
 from collections import deque
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from inspect import iscoroutine, iscoroutinefunction
 from typing import TYPE_CHECKING, Any, cast
 
@@ -329,7 +329,7 @@ class VirtualTime(Executors):
     def _is_interrupted(self) -> bool:
         return self.running and self._interrupts.pressed
 
-    def _running(self) -> Any:  # noqa: ANN401 - a context manager
+    def _running(self) -> AbstractContextManager[None]:
         return self._core.running()
 
     def give_way_if_others_can_run(self) -> None:

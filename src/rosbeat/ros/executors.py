@@ -8,6 +8,7 @@ events nobody but itself knows. Here, too, is which processes are plain, and how
 from __future__ import annotations
 
 from _thread import get_ident
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -310,9 +311,9 @@ class Executors(Switchboard):
 
         self.start_greenlet(call, spin)
 
+    @abstractmethod
     def _hold(self, entry: Entry) -> None:
         """Keep for later what cannot run at once."""
-        raise NotImplementedError
 
 
 #: What an executor asks a node for.
