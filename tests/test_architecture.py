@@ -106,6 +106,7 @@ FLOORS = (
         {
             *("differences", "errors", "exception_origin", "isolation", "logs", "processes"),
             *("taking", "qos_events", "recording", "context", "launch", "graph", "ports"),
+            "node_registry",
         },
         {"rclpy"},
     ),
@@ -117,7 +118,7 @@ FLOORS = (
     (
         {
             *("session_core", "session", "scenario", "tester", "programs", "listening"),
-            "test_nodes",
+            *("test_nodes", "reports", "entity_watch"),
         },
         {"rclpy", "greenlet"},
     ),

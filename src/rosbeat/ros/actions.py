@@ -120,7 +120,7 @@ class ActionEnd:
             return take()
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
-        self._core.heard(self._state, self.kind, "serve", self.name)
+        self._core.reports.heard(self._state, self.kind, "serve", self.name)
         await execute(taken)
         self.published("status")  # of goals that were accepted
 
@@ -131,7 +131,7 @@ class ActionEnd:
             try:
                 return await await_or_execute(callback, goal)
             except Exception as error:
-                self._core.work_raised(self._state, callback_name(callback), error)
+                self._core.reports.work_raised(self._state, callback_name(callback), error)
                 # With the logger that rclpy itself would have used.
                 self.entity._logger.error(f"Error raised in execute callback: {error}")
                 return self.entity.action_type.Result()
@@ -180,7 +180,7 @@ class ActionEnd:
         # A status is stored for late-joining clients, to whom a thread sends it at no certain time.
         # No callback is called for it.
         if set(taken) - {"status"}:
-            self._core.heard(self._state, self.kind, "hear", self.name)
+            self._core.reports.heard(self._state, self.kind, "hear", self.name)
         await execute(taken)
 
     def _next_id(self) -> UUID:
@@ -255,7 +255,7 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
         options.apply_defaults()
         node = options.arguments["node"]
         core = core_of(node)
-        state = core.state_of(node) if core is not None else None
+        state = core.nodes.state_of(node) if core is not None else None
         if core is not None and state is not None:
             name = node.resolve_service_name(options.arguments["action_name"] + _SEND_GOAL)
             name = name.removesuffix(_SEND_GOAL)

@@ -190,7 +190,7 @@ class VirtualTime(Executors):
 
     def look_anew(self) -> None:
         """Look at everything again: the clock was changed from outside, or a run was broken off."""
-        states = self._core.states()
+        states = self._core.nodes.states()
         self._ready.clear()
         self._due.clear()
         self._behind.clear()
@@ -280,7 +280,7 @@ class VirtualTime(Executors):
 
     def _check_that_it_can_end(self, wait: Wait) -> None:
         if not self.elsewhere and not _can_end(wait):
-            self._core.deadlocked([wait])
+            self._core.reports.deadlocked([wait])
 
     def _call_begins(self, call: Call) -> None:
         if call.process.program is not None:
@@ -402,7 +402,7 @@ class VirtualTime(Executors):
             if call.wait is not None and _is_for_good(call) and not call.wait.reported
         ]  # fmt: skip
         if stuck:
-            self._core.deadlocked(stuck)
+            self._core.reports.deadlocked(stuck)
         if not self._ends_idle:
             self._advance(max(self._end, self.now))
         return False
@@ -609,7 +609,7 @@ class VirtualTime(Executors):
             self.wake(wait)
         handlers = [
             (state, handler)
-            for state in self._core.states()
+            for state in self._core.nodes.states()
             if state.process.is_direct and state.spinning
             for handler in state.node.waitables
             if isinstance(handler, EventHandler) and handler.callback_group is not None
@@ -624,7 +624,7 @@ class VirtualTime(Executors):
         def tell() -> Any:  # noqa: ANN401 - a coroutine, if the callback makes one
             with suppress(InvalidHandle):
                 data = handler.take_data()
-                self._core.event_heard(handler, state)
+                self._core.reports.event_heard(handler, state)
                 return handler.callback(data)
 
         executor.create_task(tell)
@@ -698,7 +698,7 @@ class VirtualTime(Executors):
 
     def _raised(self, call: Call, name: str, error: BaseException) -> None:
         """Hand what a callback of a plain process raised to the session."""
-        self._core.callback_raised(call.state, name, error)
+        self._core.reports.callback_raised(call.state, name, error)
 
 
 def _is_told(call: Call) -> bool:

@@ -203,8 +203,8 @@ class Executors(Switchboard):
         take: Callable[..., Any],
     ) -> tuple[Call, Callable[..., Any]]:
         """Return a call for the callback of an entity, and a `take` that records that it runs."""
-        core, state = self._core, self._core.state_of(node)
-        entry = core.entry_of(entity)
+        core, state = self._core, self._core.nodes.state_of(node)
+        entry = core.nodes.entry_of(entity)
         process = state.process if state is not None else Process()
         call = Call(process, state, entry, entry.label if entry is not None else None)
         if entry is not None and entry.kind == "subscription" and _is_taken_by_us(entry):
@@ -213,7 +213,7 @@ class Executors(Switchboard):
         def taking(entity: Any) -> Any:  # noqa: ANN401 - rclpy's own
             work = take(entity)
             if work is not None:
-                core.callback_ran(entity, node)
+                core.reports.callback_ran(entity, node)
                 self.calling = call.label = call.label or self.calling
             return work
 
@@ -238,11 +238,11 @@ class Executors(Switchboard):
 
     def entry_of(self, timer: Timer | None) -> Entry | None:
         """Return what is known of a timer; None for one of an executor's own."""
-        return None if timer is None else self._core.entry_of(timer)
+        return None if timer is None else self._core.nodes.entry_of(timer)
 
     def entry_of_key(self, key: int) -> Entry | None:
         """Return the entity of a key, if it is one of the session's."""
-        return self._core.entry_of_key(key)
+        return self._core.nodes.entry_of_key(key)
 
     # Which processes executors run.
 
@@ -305,7 +305,7 @@ class Executors(Switchboard):
                 state, name = None, "spin"  # what no callback has raised
                 if failure is not None and failure[0] is error:
                     state, name = failure[1].state, failure[1].name
-                self._core.callback_raised(state or process.states[0], name, error)
+                self._core.reports.callback_raised(state or process.states[0], name, error)
             finally:
                 process.spinner = None
 

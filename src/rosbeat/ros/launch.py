@@ -135,12 +135,12 @@ def build_in(
         NodeClassError: If a target is no class of nodes, function that returns one, or node.
         NodeConstructionError: If a constructor or function raises.
     """
-    before = core.states()
+    before = core.nodes.states()
     try:
         with core.starting(start, process):
             return tuple(_build_node(target, core.console) for target in targets)
     except BaseException:  # Interrupt, too
-        for state in core.states():
+        for state in core.nodes.states():
             if state not in before:
                 core.destroy(state)
         raise

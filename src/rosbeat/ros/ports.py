@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from rosbeat.ros.graph import GraphObserver
     from rosbeat.ros.launch import Launch
     from rosbeat.ros.live import LiveExecutor
-    from rosbeat.ros.processes import Entry, NodeState, Process
+    from rosbeat.ros.node_registry import NodeRegistry
+    from rosbeat.ros.processes import NodeState, Process
     from rosbeat.ros.recording import Entity, Recorder
     from rosbeat.ros.waits import Wait
 
@@ -44,8 +45,47 @@ class Timekeeper(Protocol):
         """Return nanoseconds since the session began."""
 
 
+class Reporter(Protocol):
+    """Record which callbacks run and what goes wrong in them, and print what is new of it."""
+
+    def callback_ran(self, entity: Entity, node: Node | None) -> None:
+        """Record a callback that is about to run, live or through rclpy's wait set."""
+
+    def event_heard(self, handler: Entity, state: NodeState) -> None:
+        """Record the callback of a QoS event that is about to run."""
+
+    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
+        """Record a callback of an action or another waitable that is about to run."""
+
+    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
+        """Record an exception that left a callback; end its process."""
+
+    def entity_raised(self, node: Node | None, entity: Entity, error: BaseException) -> None:
+        """Record an exception that left a callback, in live mode."""
+
+    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
+        """Record an exception that left the work on a goal."""
+
+    def deadlocked(self, waits: Sequence[Wait]) -> None:
+        """Record that callbacks wait for ever."""
+
+    def add_fault(self, fault: Fault) -> None:
+        """Record a fault that the caller prints in its own way."""
+
+    def show_news(self) -> None:
+        """Print the log lines and faults that have not been printed yet."""
+
+
 class Host(Protocol):
-    """Answer the engine and the executors: which nodes there are, and what came of a callback."""
+    """Serve the engine and the executors: which nodes there are, and where callbacks run."""
+
+    @property
+    def nodes(self) -> NodeRegistry:
+        """Return which nodes and entities there are."""
+
+    @property
+    def reports(self) -> Reporter:
+        """Return what records callbacks and faults, and prints what is new."""
 
     @property
     def context(self) -> SessionContext:
@@ -59,35 +99,8 @@ class Host(Protocol):
     def next_number(self) -> Callable[[], int]:
         """Return what gives the position of a new entity in the order of creation."""
 
-    def states(self) -> list[NodeState]:
-        """Return all nodes that have not been destroyed, in order of creation."""
-
-    def state_of(self, node: Node | None) -> NodeState | None:
-        """Return what is known of a node."""
-
-    def entry_of(self, entity: Any) -> Entry | None:  # noqa: ANN401 - any entity of rclpy
-        """Return what is known of an entity."""
-
-    def entry_of_key(self, key: int) -> Entry | None:
-        """Return the entity of a key in a wait set."""
-
     def running(self, code: Iterable[object] = ()) -> AbstractContextManager[None]:
         """Prepare this thread for running nodes, and classes and functions besides."""
-
-    def callback_ran(self, entity: Entity, node: Node | None) -> None:
-        """Record a callback that is about to run, live or through rclpy's wait set."""
-
-    def event_heard(self, handler: Entity, state: NodeState) -> None:
-        """Record the callback of a QoS event that is about to run."""
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """Record an exception that left a callback; end its process."""
-
-    def entity_raised(self, node: Node | None, entity: Entity, error: BaseException) -> None:
-        """Record an exception that left a callback, in live mode."""
-
-    def deadlocked(self, waits: Sequence[Wait]) -> None:
-        """Record that callbacks wait for ever."""
 
 
 class Observer(Protocol):
@@ -147,6 +160,10 @@ class Sender(Timekeeper, Protocol):
     """Serve actions and the clocks of QoS: note what they send, hear and wait for."""
 
     @property
+    def reports(self) -> Reporter:
+        """Return what records callbacks and faults, and prints what is new."""
+
+    @property
     def recorder(self) -> Recorder:
         """Return the recorder of the session."""
 
@@ -157,9 +174,6 @@ class Sender(Timekeeper, Protocol):
     def sent(self, kind: str, name: str, origin: NodeState | None = None) -> None:
         """Note that a node sent something to the `kind` entities called `name`."""
 
-    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
-        """Record a callback of an action or another waitable that is about to run."""
-
     def wait(self, call: str, done: Callable[[], bool], seconds: float | None) -> bool:
         """Wait until something is done, in a cell."""
 
@@ -169,19 +183,21 @@ class Sender(Timekeeper, Protocol):
     def next_goal(self) -> int:
         """Return how many goals were sent here; 0 in a domain with other processes in it."""
 
-    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
-        """Record an exception that left the work on a goal."""
-
 
 class Starter(Protocol):
     """Make nodes and take half-made ones back, for a launch and for programs."""
 
     @property
+    def nodes(self) -> NodeRegistry:
+        """Return which nodes and entities there are."""
+
+    @property
+    def reports(self) -> Reporter:
+        """Return what records callbacks and faults, and prints what is new."""
+
+    @property
     def console(self) -> Console:
         """Return what prints for the session."""
-
-    def states(self) -> list[NodeState]:
-        """Return all nodes that have not been destroyed, in order of creation."""
 
     def starting(
         self, start: Launch, process: Process | None = None
@@ -191,21 +207,20 @@ class Starter(Protocol):
     def destroy(self, state: NodeState) -> None:
         """Destroy a node, whole or half-made."""
 
-    def add_fault(self, fault: Fault) -> None:
-        """Record a fault that the caller prints in its own way."""
-
 
 class Spinner(Timekeeper, Protocol):
     """Run the nodes for a cell that calls `rclpy.spin`, until it is interrupted."""
 
+    @property
+    def nodes(self) -> NodeRegistry:
+        """Return which nodes and entities there are."""
+
+    @property
+    def reports(self) -> Reporter:
+        """Return what records callbacks and faults, and prints what is new."""
+
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it."""
-
-    def state_of(self, node: Node | None) -> NodeState | None:
-        """Return what is known of a node."""
-
-    def name_of(self, node: Node) -> str | None:
-        """Return the full name of a node that is or was here."""
 
     def spin_node(self, state: NodeState) -> None:
         """Run this node's callbacks from now on."""
@@ -221,9 +236,6 @@ class Spinner(Timekeeper, Protocol):
 
     def interrupt(self) -> None:
         """End a callback that hangs: Interrupt was pressed while the nodes run live."""
-
-    def show_news(self) -> None:
-        """Print the log lines and faults that have not been printed yet."""
 
 
 class Domain(Protocol):

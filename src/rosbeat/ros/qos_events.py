@@ -276,7 +276,7 @@ class Limits:
         """Count what a new subscription asks for."""
         qos, core = entry.entity.qos_profile, self._core
         lifespan = limit_ns(qos.lifespan)
-        taps = [tap for one in core.states() for tap in one.taps if tap.topic == entry.name]
+        taps = [tap for one in core.nodes.states() for tap in one.taps if tap.topic == entry.name]
         stored = [tap for tap in taps if tap.stores_for(qos)]
         # What is sent on topics that every node has is not recorded.
         if entry.name not in INFRASTRUCTURE_TOPICS and (

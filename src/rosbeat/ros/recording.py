@@ -584,9 +584,9 @@ def _channel_of_type(
         full = node.resolve_topic_name(topic)
     except (InvalidTopicNameException, rclpy_implementation.RCLError):
         return None  # rclpy says so itself, with the name
-    own = core.state_of(node)
+    own = core.nodes.state_of(node)
     is_separate = core.has_separate_types
-    for state in core.states():
+    for state in core.nodes.states():
         if is_separate and own is not None and state.process is not own.process:
             continue
         for end in (*state.node.publishers, *state.node.subscriptions):

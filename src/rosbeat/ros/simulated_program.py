@@ -322,7 +322,7 @@ class SimulatedProgram:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
             self.failure = fault_of(error, self.core.now(), self.name, "main"), error
-            self.core.add_fault(self.failure[0])
+            self.core.reports.add_fault(self.failure[0])
         if self.stderr:
             print(self.stderr, end="", file=sys.stderr)
         self._end(code)

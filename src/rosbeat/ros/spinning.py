@@ -22,13 +22,12 @@ from rclpy.task import Future
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.errors import foreign_node, note
+from rosbeat.ros.errors import note
 from rosbeat.ros.recording import core_of
 from rosbeat.ros.waits import board_here
 
 if TYPE_CHECKING:
     from rosbeat.ros.ports import Spinner
-    from rosbeat.ros.processes import NodeState
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
@@ -100,7 +99,7 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
                 core.virtual.give_way()
             return
         core.refuse_in_callback("rclpy.spin_until_future_complete")
-        core.spin_node(_state_of(core, node))
+        core.spin_node(core.nodes.member(node))
         if core.live is not None:
             core.live.wait_for(future, timeout_sec)
         else:
@@ -135,14 +134,6 @@ def _may_spin(core: Spinner) -> bool:
     return call.process.program is not None or call.ident > 0
 
 
-def _state_of(core: Spinner, node: Node) -> NodeState:
-    """Return what is known of a node; raise a NodeClassError if it was destroyed."""
-    state = core.state_of(node)
-    if state is None:
-        raise foreign_node(node, core.name_of(node))
-    return state
-
-
 # In a cell.
 
 
@@ -168,7 +159,7 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
 def _spin_in_session(core: Spinner, node: Node) -> None:
     """Run the session's nodes against the wall clock until Interrupt."""
     core.refuse_in_callback("rclpy.spin")
-    state = _state_of(core, node)
+    state = core.nodes.member(node)
     core.spin_node(state)
     was_live = core.live is not None
     if not was_live:
@@ -179,7 +170,7 @@ def _spin_in_session(core: Spinner, node: Node) -> None:
         with Interrupts() as interrupts:  # printing may swallow the exception
             while core.live is not None and not state.ended:
                 interrupts.raise_if_pressed()
-                core.show_news()
+                core.reports.show_news()
                 pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, f"{state.name} has stopped spinning; the session is still open.")
@@ -188,7 +179,7 @@ def _spin_in_session(core: Spinner, node: Node) -> None:
     finally:
         if not was_live:
             core.go_virtual()
-        core.show_news()
+        core.reports.show_news()
 
 
 def _refuse_in_constructor(node: Node) -> None:

@@ -278,7 +278,7 @@ def _in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
         core: EngineHost | None = getattr(executor.context, "session_core", None)
         if core is None or core.live is not None:
             return nodes
-        states = [(core.state_of(node), node) for node in nodes]
+        states = [(core.nodes.state_of(node), node) for node in nodes]
         known = [state for state, _ in states if state and not (state.paused or state.ended)]
         known.sort(key=lambda state: state.number)
         return [
