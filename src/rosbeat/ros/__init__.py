@@ -11,6 +11,7 @@ Only this folder imports rclpy. `docs/simulation.md` explains how virtual time w
   greenlets), `executors` (what wakes rclpy's own executors, and which processes they run),
   `engine` (the loop), `taking` (what has arrived, straight from rclpy's handles), `processes`
   (nodes, their entities, simulated processes).
+- What is replaced in rclpy, for good: `hooks`.
 - What code of nodes meets in the place of the operating system: `wait_set` (where rclpy's own
   executors wait), `threads` (threads, locks, queues), `clock` (clocks, and calls that wait).
 - Programs: `simulated_program` (a file with `main()`), `context` (contexts, interrupts,

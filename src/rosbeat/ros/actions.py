@@ -16,7 +16,7 @@ from hashlib import sha256
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from rclpy.action import ActionClient, ActionServer
+from rclpy.action import ActionServer
 from rclpy.action.server import ServerGoalHandle
 from rclpy.executors import await_or_execute
 from rclpy.task import Future
@@ -243,7 +243,8 @@ def action_of(entity: Entity, state: NodeState) -> ActionEnd | None:
 # The hooks.
 
 
-def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
+def watch_action(original: Callable[..., None], kind: str) -> Callable[..., None]:
+    """Wrap the constructor of an action's client or server, so that the session watches it."""
     order = signature(original)
 
     @wraps(original)
@@ -266,7 +267,9 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
     return init
 
 
-def _publishing(original: Callable[..., None], topic: str) -> Callable[..., None]:
+def watch_publishing(original: Callable[..., None], topic: str) -> Callable[..., None]:
+    """Wrap a method of a goal's handle after which its server has published on a topic."""
+
     @wraps(original)
     def publish(goal: ServerGoalHandle, *given: Message) -> None:
         original(goal, *given)
@@ -276,15 +279,3 @@ def _publishing(original: Callable[..., None], topic: str) -> Callable[..., None
             end.published(topic)
 
     return publish
-
-
-def _install() -> None:
-    ActionServer.__init__ = _watch(ActionServer.__init__, SERVER)
-    ActionClient.__init__ = _watch(ActionClient.__init__, CLIENT)
-    goal = ServerGoalHandle
-    goal.publish_feedback = _publishing(goal.publish_feedback, "feedback")
-    # Every change of a goal's state, after which its server publishes the status.
-    goal._update_state = _publishing(goal._update_state, "status")
-
-
-_install()  # at import, so exactly once in a process

@@ -13,9 +13,8 @@ from rclpy.node import Node
 from rosbeat.domains import LAST_DOMAIN
 from rosbeat.errors import SessionError, called_as
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
-from rosbeat.ros import spinning
 from rosbeat.ros.clock import LATEST_START, START
-from rosbeat.ros.context import install_learner_calls, show_briefly
+from rosbeat.ros.context import show_briefly
 from rosbeat.ros.errors import (
     Console,
     check_middleware,
@@ -40,10 +39,6 @@ if TYPE_CHECKING:
 
 
 SomeNode = TypeVar("SomeNode", bound=Node)
-
-
-install_learner_calls()
-spinning.install()
 
 
 class Session:

@@ -20,6 +20,7 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.errors import SessionError
 from rosbeat.records import NANOSECONDS, GraphSnapshot, LogRecord
+from rosbeat.ros import hooks  # noqa: F401 - its import lets rclpy tell sessions of nodes
 from rosbeat.ros.clock import START, VirtualClock, VirtualNames, make_clock
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.differences import tasks_of

@@ -15,7 +15,6 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 import rclpy
-from rclpy import experimental
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
@@ -33,17 +32,9 @@ if TYPE_CHECKING:
 PULSE = 0.1
 
 
-def install() -> None:
-    """Put this module's functions in the places of rclpy's; a second call does nothing."""
-    if hasattr(rclpy.spin, "__wrapped__"):
-        return
-    rclpy.spin = _spin(rclpy.spin)
-    rclpy.spin_once = _spin_once(rclpy.spin_once)
-    rclpy.spin_until_future_complete = _spin_until(rclpy.spin_until_future_complete)
-    experimental.EventsExecutor = _refuse_in_session(experimental.EventsExecutor)
+def spin_for_pages(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `rclpy.spin`: for a node of a session, a cell runs all nodes live."""
 
-
-def _spin(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(node: Node, executor: Executor | None = None) -> None:
         core: Spinner | None = core_of(node)
@@ -62,7 +53,9 @@ def _spin(original: Callable[..., None]) -> Callable[..., None]:
     return spin
 
 
-def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
+def spin_once_for_pages(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `rclpy.spin_once`, which a cell need not call for a node of a session."""
+
     @wraps(original)
     def spin_once(
         node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
@@ -83,7 +76,9 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
     return spin_once
 
 
-def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
+def spin_until_for_pages(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `rclpy.spin_until_future_complete`: in a cell, the session runs its nodes."""
+
     @wraps(original)
     def spin_until_future_complete(
         node: Node,
@@ -108,7 +103,9 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
     return spin_until_future_complete
 
 
-def _refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
+def refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
+    """Wrap the `EventsExecutor`, which virtual time does not reach."""
+
     @wraps(original, updated=())
     def make(*args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - rclpy's own
         if board_here() is not None:
