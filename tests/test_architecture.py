@@ -118,7 +118,7 @@ FLOORS = (
     (
         {
             *("session_core", "session", "scenario", "tester", "programs", "listening"),
-            *("test_nodes", "reports", "entity_watch"),
+            *("test_nodes", "reports", "entity_watch", "node_lives"),
         },
         {"rclpy", "greenlet"},
     ),

@@ -102,19 +102,19 @@ class SessionInstruments:
     def pause(self, node: str) -> None:
         """Run none of a node's callbacks."""
         with self._acting():
-            self._core.pause(node)
+            self._core.lives.pause(node)
 
     def resume(self, node: str) -> None:
         """Run a paused node's callbacks again."""
         with self._acting():
-            self._core.resume(node)
+            self._core.lives.resume(node)
 
     def stop(self, node: str) -> None:
         """Destroy a node, and remember how it was made."""
         with self._acting():
             state = self._core.nodes.find(node)
             self._stopped[state.name] = self._maker(state)
-            self._core.destroy(state)
+            self._core.lives.destroy(state)
 
     def start(self, node: str) -> None:
         """Make a stopped or ended node again."""
@@ -123,7 +123,7 @@ class SessionInstruments:
             maker = self._maker(state) if state else self._stopped.get(node)
             if maker is None:
                 raise no_such_node(node, list(self._stopped))
-            self._core.restart(node, maker)
+            self._core.lives.restart(node, maker)
             self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:
@@ -159,7 +159,7 @@ class SessionInstruments:
             self._topic_faults.clear()
             state = self._core.nodes.state_of(self._injector)
             if state is not None:
-                self._core.destroy(state)
+                self._core.lives.destroy(state)
             self._injector = None
 
     # How it works.
@@ -177,7 +177,7 @@ class SessionInstruments:
         """Return the panel's own node, made when it is first needed."""
         if self._core.nodes.state_of(self._injector) is None:
             self._injector = Injector(self._core.context)
-            self._core.spin_node(self._core.nodes.member(self._injector))
+            self._core.lives.spin_node(self._core.nodes.member(self._injector))
         assert self._injector is not None
         return self._injector
 

@@ -142,7 +142,7 @@ def build_in(
     except BaseException:  # Interrupt, too
         for state in core.nodes.states():
             if state not in before:
-                core.destroy(state)
+                core.lives.destroy(state)
         raise
 
 

@@ -76,6 +76,16 @@ class Reporter(Protocol):
         """Print the log lines and faults that have not been printed yet."""
 
 
+class Lives(Protocol):
+    """Run a node's callbacks, and take a node away."""
+
+    def spin_node(self, state: NodeState) -> None:
+        """Run this node's callbacks from now on."""
+
+    def destroy(self, state: NodeState) -> None:
+        """Destroy a node, whole or half-made."""
+
+
 class Host(Protocol):
     """Serve the engine and the executors: which nodes there are, and where callbacks run."""
 
@@ -188,6 +198,10 @@ class Starter(Protocol):
     """Make nodes and take half-made ones back, for a launch and for programs."""
 
     @property
+    def lives(self) -> Lives:
+        """Return what runs nodes and destroys them."""
+
+    @property
     def nodes(self) -> NodeRegistry:
         """Return which nodes and entities there are."""
 
@@ -204,12 +218,13 @@ class Starter(Protocol):
     ) -> AbstractContextManager[None]:
         """Let nodes that are made in a block be started so, in a process of theirs."""
 
-    def destroy(self, state: NodeState) -> None:
-        """Destroy a node, whole or half-made."""
-
 
 class Spinner(Timekeeper, Protocol):
     """Run the nodes for a cell that calls `rclpy.spin`, until it is interrupted."""
+
+    @property
+    def lives(self) -> Lives:
+        """Return what runs nodes and destroys them."""
 
     @property
     def nodes(self) -> NodeRegistry:
@@ -221,9 +236,6 @@ class Spinner(Timekeeper, Protocol):
 
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it."""
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
 
     def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
         """Run virtual time for a cell until `done` is true, at most so many seconds."""

@@ -81,7 +81,9 @@ class Reports:
         repair_message_classes()
         if state is not None:
             kind = INTERRUPTED if isinstance(error, BrokenOff) else RAISED
-            self._core.end_process(state.process, Ending(kind, state.name, name, self._core.now()))
+            self._core.lives.end_process(
+                state.process, Ending(kind, state.name, name, self._core.now())
+            )
         if self._core.live is None:
             self.show_news()
             if state is not None:
@@ -109,7 +111,7 @@ class Reports:
             state = self._core.nodes.named(label.node)
         if label is None or state is None or state.process.program is not None:
             return ""
-        self._core.end_process(
+        self._core.lives.end_process(
             state.process, Ending(INTERRUPTED, state.name, label.name, self._core.now())
         )
         return (

@@ -272,11 +272,11 @@ class Steps:
         if state is None:
             return name, "no such node"
         if isinstance(step, Remove):
-            self._core.destroy(state)
+            self._core.lives.destroy(state)
         elif isinstance(step, Pause):
-            self._core.pause_node(state)
+            self._core.lives.pause_node(state)
         elif isinstance(step, Resume) and not state.ended:
-            self._core.spin_node(state)
+            self._core.lives.spin_node(state)
         elif isinstance(step, SetParameter | SetParameters):
             text = self._set(step, state, state.node)
         return state.name, text

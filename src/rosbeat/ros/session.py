@@ -188,7 +188,7 @@ class Session:
         for state in states:
             process.adopt(state)
         for state in states:
-            self._core.spin_node(state)
+            self._core.lives.spin_node(state)
         for maker, node in zip(given, made, strict=True):
             if node is not maker:
                 self._core.makers[node] = Maker(maker, start)
@@ -230,7 +230,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._core.destroy(self._core.nodes.find(node))
+        self._core.lives.destroy(self._core.nodes.find(node))
 
     @called_as('ros.pause("sensor")')
     def pause(self, node: Node | str) -> None:
@@ -242,7 +242,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._core.pause(node)
+        self._core.lives.pause(node)
 
     @called_as('ros.resume("sensor")')
     def resume(self, node: Node | str) -> None:
@@ -254,7 +254,7 @@ class Session:
             SessionError: If the session has no such node, or it ended with an exception.
         """
         self._check_open()
-        self._core.resume(node)
+        self._core.lives.resume(node)
 
     # Time.
 

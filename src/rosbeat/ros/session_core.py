@@ -6,14 +6,12 @@ import time
 from _thread import get_ident
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
-from inspect import iscoroutine
 from itertools import count
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
 
-import rclpy.utilities
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
-from rclpy.executors import Executor, MultiThreadedExecutor
+from rclpy.executors import Executor
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.validate_full_topic_name import validate_full_topic_name
@@ -23,21 +21,20 @@ from rosbeat.records import NANOSECONDS, GraphSnapshot, LogRecord
 from rosbeat.ros import hooks  # noqa: F401 - its import lets rclpy tell sessions of nodes
 from rosbeat.ros.clock import START, VirtualClock, VirtualNames, make_clock
 from rosbeat.ros.context import SessionContext
-from rosbeat.ros.differences import tasks_of
 from rosbeat.ros.engine import LONGEST_WAIT, VirtualTime
 from rosbeat.ros.entity_watch import EntityWatch
-from rosbeat.ros.errors import INSTEAD_OF_WAITING, Console, check_name, node_has_ended, note
+from rosbeat.ros.errors import INSTEAD_OF_WAITING, Console, check_name, note
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.isolation import SeededRandom, quitting_raises
-from rosbeat.ros.launch import Launch, Maker, build_in
+from rosbeat.ros.launch import Launch, Maker
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.logs import bind, close_host, open_host
+from rosbeat.ros.node_lives import NodeLives, end_coroutines
 from rosbeat.ros.node_registry import NodeRegistry
 from rosbeat.ros.processes import SHUT_DOWN, Ending, NodeState, Process, full_name
 from rosbeat.ros.qos_events import Limits
 from rosbeat.ros.recording import Entity, Recorder, repair_message_classes
 from rosbeat.ros.reports import Reports
-from rosbeat.ros.wait_set import ProcessExecutor
 from rosbeat.ros.waits import _BOARD, Call
 
 
@@ -50,6 +47,8 @@ class SessionCore:
 
     Attributes:
         nodes: Which nodes and entities there are.
+        lives: Runs, rests, restarts and ends nodes.
+        watch: Replaces methods of each new entity.
         reports: What is recorded and printed of callbacks, faults and log lines.
         virtual: The engine of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
@@ -89,7 +88,8 @@ class SessionCore:
         self.recorder = Recorder()
         self.console = console or Console()
         self.reports = Reports(self)
-        self._watch = EntityWatch(self)
+        self.watch = EntityWatch(self)
+        self.lives = NodeLives(self)
         self.context = SessionContext(self, domain_id)
         self.virtual = VirtualTime(self.recorder, self, start_time * NANOSECONDS)
         self.live: LiveExecutor | None = None
@@ -121,121 +121,7 @@ class SessionCore:
         own = snapshot(self.nodes.states())
         return with_other_processes(own, self.graph_observer) if self.graph_observer else own
 
-    # Nodes come, run, rest and go.
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-        state.paused = False
-        process = state.process
-        if self.live is not None:
-            state.spinning = True
-            state.node.executor = self.live
-            self.live.wake()
-        elif process.program is None:
-            self._spin_in_process(state)
-        else:
-            state.spinning = state.node.executor is not None
-            self.virtual.entities_changed()
-        self.virtual.resume(state)
-
-    def _spin_in_process(self, state: NodeState) -> None:
-        process = state.process
-        if process.executor is None:
-            with self.starting(Launch(), process):
-                process.executor = self._make_executor(process)
-        if len(process.states) == 1 and process.pool_size == 1:
-            # As in the `main` of most programs: `rclpy.spin(node)`.
-            process.global_executor = process.executor
-        state.spinning = True
-        state.node.executor = process.executor
-        self._watch.adopt(state)
-        self.virtual.spin_process(process)
-
-    def _make_executor(self, process: Process) -> Executor:
-        if process.pool_size == 1:
-            return ProcessExecutor(self, process)
-        return MultiThreadedExecutor(process.pool_size, context=self.context)
-
-    def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
-        """Note that an executor has begun or ceased to spin a node."""
-        state = self.nodes.state_of(node)
-        if state is None:
-            return
-        state.spinning = spins and not (state.paused or state.ended)
-        state.process.refresh()
-        if spins and state.process.program is not None:
-            self._watch.adopt(state)
-        if spins:
-            self.virtual.entities_changed()
-        elif executor is state.process.executor and self.virtual.in_callback:
-            note(
-                f"a spin function of rclpy has removed {state.name} from the executor of its "
-                "process, so its callbacks no longer run."
-            )
-
-    def pause_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
-        state.spinning = False
-        state.process.refresh()
-        self.virtual.entities_changed()
-        if self.live is not None:
-            self.live.wake()  # it may be waiting for this node
-
-    def pause(self, node: Node | str) -> None:
-        """Pause a node, given itself or by name; raise a SessionError if there is no such node."""
-        state = self.nodes.find(node)
-        self.pause_node(state)
-        state.paused = True
-
-    def resume(self, node: Node | str) -> None:
-        """Resume a node, given itself or by name.
-
-        Raises:
-            SessionError: If there is no such node, or it has ended.
-        """
-        state = self.nodes.find(node)
-        if state.ended:
-            raise node_has_ended(state.name)
-        self.spin_node(state)
-
-    def restart(self, name: str, maker: Maker) -> None:
-        """Make a node of this name as it was made before, and run its callbacks.
-
-        Raises:
-            SessionError: If another session is open.
-            NodeConstructionError: If its constructor raises.
-        """
-        # A node names no context, so it would land in the session that was opened last.
-        if rclpy.utilities.g_default_context is not self.context:
-            raise SessionError(
-                f"{name} cannot be started now.",
-                "Another session is open, and a new node would belong to that session.",
-                "Close the other session first, or wait until the running check has ended.",
-            )
-        (made,) = build_in(self, [maker.make], maker.start)
-        self.makers[made] = maker
-        self.spin_node(self.nodes[made])
-
-    def end_process(self, process: Process, ending: Ending) -> None:
-        """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
-        for state in list(process.states):
-            self.pause_node(state)
-            state.ended, state.ending = True, state.ending or ending
-        process.is_over = True
-        for call in [call for call in process.calls if call.wait is not None]:
-            self.virtual.break_off(call)
-        if process.executor is not None:
-            _end_coroutines(process.executor)
-
-    def destroy(self, state: NodeState) -> None:
-        """Destroy a node, whole or half-made."""
-        try:
-            state.node.destroy_node()
-        except Exception:
-            # Its constructor stopped half-way, or its own destroy_node raises, or did half of it.
-            with suppress(AttributeError, InvalidHandle):
-                Node.destroy_node(state.node)
-            self.node_ends(state.node)
+    # How nodes are started.
 
     @contextmanager
     def starting(self, start: Launch, process: Process | None = None) -> Iterator[None]:
@@ -262,7 +148,7 @@ class SessionCore:
             call, program = self.virtual.current, old.process.program
             if program is not None and (call is None or call.process is not old.process):
                 program.kill()
-            self.destroy(old)
+            self.lives.destroy(old)
 
     def node_made(self, node: Node) -> None:
         """Note that `Node.__init__` has returned."""
@@ -284,7 +170,7 @@ class SessionCore:
     def entity_made(self, node: Node, kind: str, entity: Entity) -> None:
         """Tap what sends; run the callbacks of whatever has some."""
         self.virtual.entities_changed()
-        self._watch.begin(self.nodes[node], kind, entity)
+        self.watch.begin(self.nodes[node], kind, entity)
 
     def waitable_made(self, node: Node) -> None:
         """Let rclpy's own executor run a node that has guard conditions or waitables."""
@@ -299,10 +185,27 @@ class SessionCore:
         state.spinning, state.ended = False, True
         self.virtual.forget(state)
         if isinstance(node.executor, Executor):
-            _end_coroutines(node.executor, state)
+            end_coroutines(node.executor, state)
         self.nodes.remove_entries(state)
         if node.executor is not None:
             node.executor.remove_node(node)
+
+    def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
+        """Note that an executor has begun or ceased to spin a node."""
+        state = self.nodes.state_of(node)
+        if state is None:
+            return
+        state.spinning = spins and not (state.paused or state.ended)
+        state.process.refresh()
+        if spins and state.process.program is not None:
+            self.watch.adopt(state)
+        if spins:
+            self.virtual.entities_changed()
+        elif executor is state.process.executor and self.virtual.in_callback:
+            note(
+                f"a spin function of rclpy has removed {state.name} from the executor of its "
+                "process, so its callbacks no longer run."
+            )
 
     def logger_of(self, node: Node, logger: RcutilsLogger) -> RcutilsLogger:
         """Return the logger that the node's code gets: its lines come to this session."""
@@ -481,7 +384,7 @@ class SessionCore:
             if state.spinning and live is not None:
                 state.node.executor = live
             elif state.spinning:
-                self._spin_in_process(state)
+                self.lives.spin_in_process(state)
             for timer in (one.entity for one in state.entries if one.kind.endswith("timer")):
                 # Each timer begins a new period: its deadline is a reading of the other clock.
                 with suppress(InvalidHandle):  # destroyed by its node
@@ -506,11 +409,11 @@ class SessionCore:
         for process in self.nodes.processes:
             for executor in (process.executor, process.global_executor):
                 if executor is not None:
-                    _end_coroutines(executor)
+                    end_coroutines(executor)
                     with suppress(Exception):  # a program may have destroyed it
                         executor.shutdown(timeout_sec=0)
         for state in reversed(self.nodes.states()):
-            self.destroy(state)
+            self.lives.destroy(state)
         for entity in list(self.action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
@@ -518,8 +421,6 @@ class SessionCore:
             self.graph_observer.destroy_node()
         self.context.end()
         close_host(self)
-
-    # Watching what nodes make.
 
     # What the loggers ask and tell; see `logs.LogHost`.
 
@@ -580,14 +481,3 @@ def full_topic(call: str, topic: object) -> str:
 def _timer_clocks(state: NodeState) -> Iterator[VirtualClock]:
     timers = (entry.entity for entry in state.entries if entry.kind == "timer")
     return (timer.clock for timer in timers if isinstance(timer.clock, VirtualClock))
-
-
-def _end_coroutines(executor: Executor, state: NodeState | None = None) -> None:
-    """Close the coroutines that wait, of one node or all: their `finally` blocks run now."""
-    for task in tasks_of(executor):
-        call: Call | None = task.__dict__.get("_rosbeat_call")
-        if state is not None and (call is None or call.state is not state):
-            continue
-        if iscoroutine(task._handler) and not task.executing():
-            with suppress(Exception):  # what a `finally` block of a learner's raises
-                task._handler.close()

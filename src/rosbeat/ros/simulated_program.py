@@ -336,7 +336,7 @@ class SimulatedProgram:
             if call is not virtual.current:
                 virtual.break_off(call)
         for state in list(self._process.states):
-            self.core.destroy(state)
+            self.core.lives.destroy(state)
         for context in list(self.contexts):
             _shut_down(context)
         self.core.console.program_ended(self)

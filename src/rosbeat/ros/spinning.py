@@ -94,7 +94,7 @@ def spin_until_for_pages(original: Callable[..., None]) -> Callable[..., None]:
                 core.virtual.give_way()
             return
         core.refuse_in_callback("rclpy.spin_until_future_complete")
-        core.spin_node(core.nodes.member(node))
+        core.lives.spin_node(core.nodes.member(node))
         if core.live is not None:
             core.live.wait_for(future, timeout_sec)
         else:
@@ -157,7 +157,7 @@ def _spin_in_session(core: Spinner, node: Node) -> None:
     """Run the session's nodes against the wall clock until Interrupt."""
     core.refuse_in_callback("rclpy.spin")
     state = core.nodes.member(node)
-    core.spin_node(state)
+    core.lives.spin_node(state)
     was_live = core.live is not None
     if not was_live:
         core.go_live()
