@@ -105,19 +105,20 @@ FLOORS = (
     (
         {
             *("differences", "errors", "exception_origin", "isolation", "logs", "processes"),
-            *("taking", "qos_events", "recording", "context", "launch", "graph"),
+            *("taking", "qos_events", "recording", "context", "launch", "graph", "ports"),
+            "node_registry",
         },
         {"rclpy"},
     ),
     ({"executors", "engine"}, {"rclpy", "greenlet"}),
     (
-        {"clock", "wait_set", "actions", "spinning", "simulated_program", "live"},
+        {"clock", "wait_set", "actions", "spinning", "simulated_program", "live", "hooks"},
         {"rclpy", "greenlet"},
     ),
     (
         {
             *("session_core", "session", "scenario", "tester", "programs", "listening"),
-            "test_nodes",
+            *("test_nodes", "reports", "entity_watch", "node_lives"),
         },
         {"rclpy", "greenlet"},
     ),
@@ -273,6 +274,89 @@ def wrong_floors(sources):
     return said
 
 
+def names_the_session(sources):
+    """Modules of `ros` below the floor of the session that name `SessionCore`, a type included."""
+    top = len(FLOORS) - 1
+    below = [module for module in sources if floor_of(module) not in (None, top)]
+    return [module for module in below if re.search(r"\bSessionCore\b", code(sources[module]))]
+
+
+def names_of_rclpy(tree):
+    """Names that a module binds to rclpy, or to what it imports or takes from there."""
+    names = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names |= {(alias.asname or alias.name).split(".")[0] for alias in node.names
+                      if ROS.fullmatch(alias.name.split(".")[0])}  # fmt: skip
+        elif isinstance(node, ast.ImportFrom) and ROS.fullmatch((node.module or "").split(".")[0]):
+            names |= {alias.asname or alias.name for alias in node.names}
+    # `thread: Any = rclpy.Node`, or `goal = ServerGoalHandle`, is the same thing.
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign | ast.AnnAssign) and is_of(node.value, names):
+            ends = node.targets if isinstance(node, ast.Assign) else [node.target]
+            names |= {end.id for end in ends if isinstance(end, ast.Name)}
+    return names
+
+
+def is_of(node, names):
+    """Whether an expression is one of these names, or an attribute of one."""
+    while isinstance(node, ast.Attribute):
+        node = node.value
+    return isinstance(node, ast.Name) and node.id in names
+
+
+def targets(node):
+    """What a statement or call assigns to or deletes, each as an expression."""
+    if isinstance(node, ast.Assign | ast.Delete):
+        todo = list(node.targets)
+    elif isinstance(node, ast.AugAssign | ast.AnnAssign):
+        todo = [node.target]
+    elif (isinstance(node, ast.Call) and len(node.args) > 1
+          and ast.unparse(node.func) in ("setattr", "delattr")):  # fmt: skip
+        yield ast.Attribute(node.args[0], "?")
+        return
+    else:
+        return
+    while todo:
+        end = todo.pop()
+        if isinstance(end, ast.Tuple | ast.List):
+            todo += end.elts
+        else:
+            yield end
+
+
+#: What is replaced while nodes run, and taken back.
+AROUND_A_RUN = {
+    ("rosbeat.ros.context", "rclpy.utilities.g_default_context"),
+    ("rosbeat.ros.simulated_program", "utilities.g_default_context"),
+    ("rosbeat.ros.simulated_program", "utilities.Context"),
+}
+
+
+def patches_outside_hooks(sources):
+    """What is assigned to an attribute of something of rclpy, other than by `ros.hooks`."""
+    said = []
+    for module, source in sources.items():
+        if module == "rosbeat.ros.hooks":
+            continue
+        tree = ast.parse(source)
+        names = names_of_rclpy(tree)
+        said += [f"{module} assigns to {ast.unparse(end)}"
+                 for node in ast.walk(tree) for end in targets(node)
+                 if isinstance(end, ast.Attribute) and is_of(end, names)
+                 and (module, ast.unparse(end)) not in AROUND_A_RUN]  # fmt: skip
+    return said
+
+
+def code(source):
+    """A source without its docstrings and comments."""
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = ""
+    return ast.unparse(tree)
+
+
 def public_things(tree, prefix=""):
     """Public classes and functions, methods of public classes included, with their names."""
     for node in tree.body:
@@ -387,7 +471,8 @@ def tracked():
 # The rules hold.
 
 RULES = [wrong_directions, unknown_rooms, rclpy_outside_ros, foreign_imports, cycles,
-         wrong_floors, not_a_verb, unnamed_errors, unexplained, words_of_pages]  # fmt: skip
+         wrong_floors, names_the_session, patches_outside_hooks, not_a_verb, unnamed_errors,
+         unexplained, words_of_pages]  # fmt: skip
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -475,6 +560,20 @@ BAD = {
     "waits import messages": (wrong_floors, "rosbeat.ros.waits", "import std_msgs.msg"),
     "nodes import greenlets": (wrong_floors, "rosbeat.ros.processes", "import greenlet"),
     "a module without a floor": (wrong_floors, "rosbeat.ros.cellar", ""),
+    "the engine knows the session": (names_the_session, "rosbeat.ros.engine",
+                                     "def f(core: SessionCore): pass"),
+    "the engine knows its type": (
+        names_the_session, "rosbeat.ros.engine",
+        "if TYPE_CHECKING:\n from rosbeat.ros.session_core import SessionCore"),
+    "a patch": (patches_outside_hooks, "rosbeat.ros.a",
+                "from rclpy.node import Node\nNode.get_logger = watch(Node.get_logger)"),
+    "a patch in a function": (
+        patches_outside_hooks, "rosbeat.ros.a",
+        "import rclpy.executors as e\ndef _install():\n a, e.Executor.spin = 1, 2\n_install()"),
+    "a patch by another name": (patches_outside_hooks, "rosbeat.ros.a",
+                                "from rclpy.task import Task\nkind: Any = Task\nkind.done = f"),
+    "a patch by setattr": (patches_outside_hooks, "rosbeat.viz.a",
+                           "import rclpy\nfor name in NAMES:\n setattr(rclpy, name, f)"),
     "a noun phrase": (not_a_verb, "rosbeat.a", 'class A:\n """A bag of words."""'),
     "no reason": (unexplained, "rosbeat.a", "import a  # noqa: F401"),
     "no reason, types": (unexplained, "rosbeat.a", "a = b()  # type: ignore[misc, unused-ignore]"),

@@ -66,7 +66,7 @@ def inspect_topic(core: SessionCore, topic: str, seconds: float) -> Scene:
     outside = _outside_beats(heard)
     with core.recorder.lock:
         messages = core.recorder.times(topic)
-    states = core.states()
+    states = core.nodes.states()
     other_domains, private_sessions = _elsewhere(core, topic, graph)
     return Scene(
         graph,
@@ -112,7 +112,7 @@ def _group_holder(core: SessionCore, entry: Entry) -> Entry | None:
     if is_free(entry):
         return None
     active = getattr(entry.entity.callback_group, "_active_entity", None)
-    entries = (one for state in core.states() for one in state.entries)
+    entries = (one for state in core.nodes.states() for one in state.entries)
     return next((one for one in entries if one.entity is active), None)
 
 
@@ -221,7 +221,7 @@ def _blocked(core: SessionCore) -> list[Condition]:
     live = core.live
     if live is None or live.task is None:
         return []
-    work, state = live.task, core.state_of(live.current)
+    work, state = live.task, core.nodes.state_of(live.current)
     callback = core.recorder.newest_callback()
     if poll(lambda: live.task is not work, time.monotonic() + _BLOCKING_SECONDS):
         return []
@@ -259,7 +259,7 @@ _Messages = list[tuple[int, str, int]]
 
 
 def _publishers(core: SessionCore, topic: str, messages: _Messages) -> Iterator[Beat]:
-    for state in core.states():
+    for state in core.nodes.states():
         counts = [tap.count for tap in state.taps if tap.topic == topic]
         if counts:
             number = sum(counts)
@@ -274,7 +274,7 @@ def _publishers(core: SessionCore, topic: str, messages: _Messages) -> Iterator[
 def _calls(core: SessionCore, topic: str) -> Counter[NodeState]:
     """Return how often the callbacks on a topic have run so far, of each node."""
     calls = Counter[NodeState]()
-    for state in core.states():
+    for state in core.nodes.states():
         mine = (one for one in state.entries if (one.kind, one.name) == ("subscription", topic))
         calls[state] = sum(one.calls for one in mine)
     return calls
@@ -292,7 +292,7 @@ def _subscriptions(
         before: How often callbacks had run before it was listened to other processes.
         arrived: How many messages came from there meanwhile.
     """
-    for state in core.states():
+    for state in core.nodes.states():
         entries = [one for one in state.entries if (one.kind, one.name) == ("subscription", topic)]
         if entries:
             deliveries = [_delivery(core, entry, messages) for entry in entries]
@@ -336,7 +336,7 @@ class _Delivery:
 
 def _delivery(core: SessionCore, entry: Entry, messages: _Messages) -> _Delivery:
     now, label = core.now(), entry.label_number
-    taps = [(state.name, tap) for state in core.states() for tap in state.taps
+    taps = [(state.name, tap) for state in core.nodes.states() for tap in state.taps
             if tap.topic == entry.name and tap.fits(entry.entity)]  # fmt: skip
     connected = {name for name, _ in taps}
     sent = [at for number, name, at in messages if number >= entry.born and name in connected]

@@ -572,7 +572,7 @@ class TestSession(Session):
             SessionError: If `node` is neither a name nor a node of this session.
         """
         __tracebackhide__ = True
-        name = self._core.name_of(node) if not isinstance(node, str) else node
+        name = self._core.nodes.name_of(node) if not isinstance(node, str) else node
         name = _full_name("set_parameters", name)
         request = parameters_request(values)
         response = self.call(f"{name}/set_parameters_atomically", request, within=within)

@@ -14,7 +14,7 @@ from rclpy.task import Future
 
 from nodes import Doer, Listener, Talker, Ticker
 from rosbeat import Session
-from rosbeat.errors import NoSessionError, SessionError
+from rosbeat.errors import NodeClassError, NoSessionError, SessionError
 
 
 @pytest.fixture
@@ -67,6 +67,15 @@ def test_shutdown_in_a_callback_ends_that_node(ros, capsys):
     assert len(ticker.fired) == 5
     with pytest.raises(SessionError, match="cannot be resumed"):
         ros.resume(doer)
+
+
+def test_a_destroyed_node_is_not_spun(ros):
+    ticker = ros.add(partial(Ticker, 1.0))
+    ros.remove(ticker)
+    with pytest.raises(NodeClassError, match="/ticker does not belong to this session"):
+        rclpy.spin(ticker)
+    with pytest.raises(NodeClassError, match="it has been destroyed"):
+        rclpy.spin_until_future_complete(ticker, Future(), timeout_sec=1)
 
 
 def test_spin_runs_live_until_interrupt(ros, capsys, interrupt):

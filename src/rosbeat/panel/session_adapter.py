@@ -17,7 +17,7 @@ from rosbeat.panel.sampling import NUMERIC_TYPES, News
 from rosbeat.records import GraphSnapshot
 from rosbeat.ros.errors import no_such_node, session_has_ended, session_is_not_live
 from rosbeat.ros.launch import Maker
-from rosbeat.ros.session_core import SessionCore, find, state_of
+from rosbeat.ros.session_core import SessionCore
 from rosbeat.ros.test_nodes import Injector, TopicFault
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ class SessionInstruments:
         """Return the graph; looked at anew when a node has changed, and every second."""
         outline = [
             (one.name, id(one.node), len(_publishers(one)), len(one.entries))
-            for one in self._core.states()
+            for one in self._core.nodes.states()
         ]
         if outline != self._outline or time.monotonic() - self._looked > _FRESH:
             self._graph = self._core.graph()
@@ -91,7 +91,7 @@ class SessionInstruments:
 
         The panel's own node is not among them.
         """
-        states = [one for one in self._core.states() if one.node is not self._injector]
+        states = [one for one in self._core.nodes.states() if one.node is not self._injector]
         found = {state.name: _condition(state) for state in states}
         for name in found:  # the page may have made one anew
             self._stopped.pop(name, None)
@@ -102,28 +102,28 @@ class SessionInstruments:
     def pause(self, node: str) -> None:
         """Run none of a node's callbacks."""
         with self._acting():
-            self._core.pause(node)
+            self._core.lives.pause(node)
 
     def resume(self, node: str) -> None:
         """Run a paused node's callbacks again."""
         with self._acting():
-            self._core.resume(node)
+            self._core.lives.resume(node)
 
     def stop(self, node: str) -> None:
         """Destroy a node, and remember how it was made."""
         with self._acting():
-            state = find(self._core, node)
+            state = self._core.nodes.find(node)
             self._stopped[state.name] = self._maker(state)
-            self._core.destroy(state)
+            self._core.lives.destroy(state)
 
     def start(self, node: str) -> None:
         """Make a stopped or ended node again."""
         with self._acting():
-            state = self._core.named(node)
+            state = self._core.nodes.named(node)
             maker = self._maker(state) if state else self._stopped.get(node)
             if maker is None:
                 raise no_such_node(node, list(self._stopped))
-            self._core.restart(node, maker)
+            self._core.lives.restart(node, maker)
             self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:
@@ -157,9 +157,9 @@ class SessionInstruments:
             for fault in self._topic_faults.values():
                 fault.remove()
             self._topic_faults.clear()
-            state = self._core.state_of(self._injector)
+            state = self._core.nodes.state_of(self._injector)
             if state is not None:
-                self._core.destroy(state)
+                self._core.lives.destroy(state)
             self._injector = None
 
     # How it works.
@@ -175,9 +175,9 @@ class SessionInstruments:
 
     def _injecting(self) -> Injector:
         """Return the panel's own node, made when it is first needed."""
-        if self._core.state_of(self._injector) is None:
+        if self._core.nodes.state_of(self._injector) is None:
             self._injector = Injector(self._core.context)
-            self._core.spin_node(state_of(self._core, self._injector))
+            self._core.lives.spin_node(self._core.nodes.member(self._injector))
         assert self._injector is not None
         return self._injector
 
@@ -193,7 +193,7 @@ class SessionInstruments:
 
     def _apply_faults(self) -> None:
         for fault in self._topic_faults.values():
-            for state in self._core.states():
+            for state in self._core.nodes.states():
                 if state.node is not self._injector:
                     fault.apply(_publishers(state))
 

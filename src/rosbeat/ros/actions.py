@@ -16,7 +16,7 @@ from hashlib import sha256
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from rclpy.action import ActionClient, ActionServer
+from rclpy.action import ActionServer
 from rclpy.action.server import ServerGoalHandle
 from rclpy.executors import await_or_execute
 from rclpy.task import Future
@@ -31,7 +31,7 @@ from rosbeat.ros.processes import NodeState, callback_name
 from rosbeat.ros.recording import Entity, Message, core_of, type_name
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import Sender
 
 SERVER, CLIENT = "action server", "action client"
 #: The services of an action, behind `/_action/`: their types, and the first word of QoS options.
@@ -50,7 +50,7 @@ class ActionEnd:
 
     def __init__(
         self,
-        core: SessionCore,
+        core: Sender,
         state: NodeState,
         kind: str,
         entity: Any,  # noqa: ANN401 - one of the two
@@ -120,7 +120,7 @@ class ActionEnd:
             return take()
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
-        self._core.heard(self._state, self.kind, "serve", self.name)
+        self._core.reports.heard(self._state, self.kind, "serve", self.name)
         await execute(taken)
         self.published("status")  # of goals that were accepted
 
@@ -131,7 +131,7 @@ class ActionEnd:
             try:
                 return await await_or_execute(callback, goal)
             except Exception as error:
-                self._core.work_raised(self._state, callback_name(callback), error)
+                self._core.reports.work_raised(self._state, callback_name(callback), error)
                 # With the logger that rclpy itself would have used.
                 self.entity._logger.error(f"Error raised in execute callback: {error}")
                 return self.entity.action_type.Result()
@@ -180,7 +180,7 @@ class ActionEnd:
         # A status is stored for late-joining clients, to whom a thread sends it at no certain time.
         # No callback is called for it.
         if set(taken) - {"status"}:
-            self._core.heard(self._state, self.kind, "hear", self.name)
+            self._core.reports.heard(self._state, self.kind, "hear", self.name)
         await execute(taken)
 
     def _next_id(self) -> UUID:
@@ -243,7 +243,8 @@ def action_of(entity: Entity, state: NodeState) -> ActionEnd | None:
 # The hooks.
 
 
-def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
+def watch_action(original: Callable[..., None], kind: str) -> Callable[..., None]:
+    """Wrap the constructor of an action's client or server, so that the session watches it."""
     order = signature(original)
 
     @wraps(original)
@@ -255,7 +256,7 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
         options.apply_defaults()
         node = options.arguments["node"]
         core = core_of(node)
-        state = core.state_of(node) if core is not None else None
+        state = core.nodes.state_of(node) if core is not None else None
         if core is not None and state is not None:
             name = node.resolve_service_name(options.arguments["action_name"] + _SEND_GOAL)
             name = name.removesuffix(_SEND_GOAL)
@@ -266,7 +267,9 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
     return init
 
 
-def _publishing(original: Callable[..., None], topic: str) -> Callable[..., None]:
+def watch_publishing(original: Callable[..., None], topic: str) -> Callable[..., None]:
+    """Wrap a method of a goal's handle after which its server has published on a topic."""
+
     @wraps(original)
     def publish(goal: ServerGoalHandle, *given: Message) -> None:
         original(goal, *given)
@@ -276,15 +279,3 @@ def _publishing(original: Callable[..., None], topic: str) -> Callable[..., None
             end.published(topic)
 
     return publish
-
-
-def _install() -> None:
-    ActionServer.__init__ = _watch(ActionServer.__init__, SERVER)
-    ActionClient.__init__ = _watch(ActionClient.__init__, CLIENT)
-    goal = ServerGoalHandle
-    goal.publish_feedback = _publishing(goal.publish_feedback, "feedback")
-    # Every change of a goal's state, after which its server publishes the status.
-    goal._update_state = _publishing(goal._update_state, "status")
-
-
-_install()  # at import, so exactly once in a process

@@ -290,15 +290,18 @@ _original_new: Callable[..., Any] = Clock.__new__
 
 
 @wraps(_original_new)
-def _new(kind: type, *args: Any, clock_type: ClockType = ClockType.SYSTEM_TIME, **rest: Any) -> Any:  # noqa: ANN401 - rclpy's own
+def new_clock(
+    kind: type,
+    *args: Any,  # noqa: ANN401 - rclpy's own
+    clock_type: ClockType = ClockType.SYSTEM_TIME,
+    **rest: Any,  # noqa: ANN401 - rclpy's own
+) -> Any:  # noqa: ANN401 - rclpy's own
+    """Make a clock; one that code of a node makes shows virtual time."""
     board = board_here()
     known = not args and not rest and isinstance(clock_type, ClockType)
     if isinstance(board, VirtualTime) and not board.is_live and known and kind in (Clock, ROSClock):
         return make_clock(board, clock_type)
     return _original_new(kind, *args, clock_type=clock_type, **rest)
-
-
-Clock.__new__ = staticmethod(_new)  # at import, so exactly once in a process
 
 
 # Functions that tell the time, or block.

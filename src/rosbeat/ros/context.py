@@ -31,7 +31,7 @@ from rosbeat.ros.recording import in_kernel
 from rosbeat.ros.waits import board_here
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import AllPorts
     from rosbeat.ros.simulated_program import SimulatedProgram
 
 #: No node says anything on file descriptor 2: log lines are printed in the cell that ran the node,
@@ -91,9 +91,9 @@ class SessionContext(Context):
             nothing alive.
     """
 
-    def __init__(self, core: SessionCore, domain_id: int | None) -> None:
+    def __init__(self, core: AllPorts, domain_id: int | None) -> None:
         super().__init__()
-        self.session_core: SessionCore | None = core
+        self.session_core: AllPorts | None = core
         # Always an older one, so that these references never form a circle.
         self.previous: Context | None = rclpy.utilities.g_default_context
         self._is_private = domain_id is None
@@ -223,16 +223,13 @@ class ProgramContext(Context):
                     node.destroy_node()
 
 
-def _new_context(kind: type[Context], *_: object, **__: object) -> Context:
+def new_context(kind: type[Context], *_: object, **__: object) -> Context:
     """Make a context; one that code of a program makes is the program's."""
     board = board_here()
     call = board.current if board is not None else None
     own = kind is Context and call is not None and call.process.program is not None
     made: Context = object.__new__(ProgramContext if own else kind)
     return made
-
-
-Context.__new__ = staticmethod(_new_context)  # at import, so exactly once in a process
 
 
 def _open_context(context: Context | None) -> Context | None:
@@ -287,18 +284,20 @@ class Interrupts:
         self._original(number, frame)
 
 
-def install_learner_calls() -> None:
-    """Put an `init` for pages in the place of rclpy's; a second call does nothing.
+def release_interrupt() -> None:
+    """Take back the signal handlers of an `rclpy.init()` that a kernel has called before.
 
-    The original is written for a process that does nothing else: in a kernel it would install
-    signal handlers with which Interrupt shuts down *every* context.
+    With them, Interrupt would shut down *every* context.
     """
-    original: Callable[..., Any] = rclpy.init
-    if hasattr(original, "__wrapped__"):
-        return
     if in_kernel() and threading.current_thread() is threading.main_thread():
-        # rclpy.init() may have been called before rosbeat was imported.
         rclpy.signals.uninstall_signal_handlers()
+
+
+def init_for_pages(original: Callable[..., Any]) -> Callable[..., Any]:
+    """Wrap `rclpy.init`, which is written for a process that does nothing else.
+
+    In a kernel it would install signal handlers with which Interrupt shuts down *every* context.
+    """
 
     @wraps(original)
     def init(
@@ -322,4 +321,4 @@ def install_learner_calls() -> None:
             args = [] if args is None else args  # sys.argv is the kernel's, not the node's
         return original(args=args, context=context, **options)
 
-    rclpy.init = init
+    return init

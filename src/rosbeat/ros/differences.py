@@ -13,7 +13,7 @@ from functools import partial
 from types import FunctionType, MethodType
 from typing import Any, cast
 
-import rclpy.event_handler
+import rclpy
 from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import Executor
@@ -149,9 +149,6 @@ def let_rclpy_warn(logger: RcutilsLogger) -> RcutilsLogger:
     return logger
 
 
-def _install() -> None:
-    get_logger = rclpy.event_handler.get_logger
-    rclpy.event_handler.get_logger = lambda name: let_rclpy_warn(get_logger(name))
-
-
-_install()
+def let_callbacks_warn(original: Callable[..., RcutilsLogger]) -> Callable[..., RcutilsLogger]:
+    """Wrap the `get_logger` of rclpy's callbacks for incompatible QoS."""
+    return lambda name: let_rclpy_warn(original(name))

@@ -20,7 +20,7 @@ import contextvars
 from asyncio import events
 from collections import deque
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from inspect import iscoroutine, iscoroutinefunction
 from typing import TYPE_CHECKING, Any, cast
 
@@ -49,7 +49,7 @@ from rosbeat.ros.schedule import SUSPICIOUS, ChainGuard
 from rosbeat.ros.waits import _BOARD, Call, Wait
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import Host
 
 #: Virtual nanoseconds that a cell waits for another node at most, in a call without a limit.
 LONGEST_WAIT = 3600 * 1_000_000_000
@@ -75,7 +75,7 @@ class VirtualTime(Executors):
             of the wait; None to let virtual time pass. Only scenarios set it.
     """
 
-    def __init__(self, recorder: Recorder, core: SessionCore, start_ns: int) -> None:
+    def __init__(self, recorder: Recorder, core: Host, start_ns: int) -> None:
         super().__init__(recorder, core)
         self.start_ns = start_ns
         self.is_live = False
@@ -190,7 +190,7 @@ class VirtualTime(Executors):
 
     def look_anew(self) -> None:
         """Look at everything again: the clock was changed from outside, or a run was broken off."""
-        states = self._core.states()
+        states = self._core.nodes.states()
         self._ready.clear()
         self._due.clear()
         self._behind.clear()
@@ -280,7 +280,7 @@ class VirtualTime(Executors):
 
     def _check_that_it_can_end(self, wait: Wait) -> None:
         if not self.elsewhere and not _can_end(wait):
-            self._core.deadlocked([wait])
+            self._core.reports.deadlocked([wait])
 
     def _call_begins(self, call: Call) -> None:
         if call.process.program is not None:
@@ -329,7 +329,7 @@ class VirtualTime(Executors):
     def _is_interrupted(self) -> bool:
         return self.running and self._interrupts.pressed
 
-    def _running(self) -> Any:  # noqa: ANN401 - a context manager
+    def _running(self) -> AbstractContextManager[None]:
         return self._core.running()
 
     def give_way_if_others_can_run(self) -> None:
@@ -402,7 +402,7 @@ class VirtualTime(Executors):
             if call.wait is not None and _is_for_good(call) and not call.wait.reported
         ]  # fmt: skip
         if stuck:
-            self._core.deadlocked(stuck)
+            self._core.reports.deadlocked(stuck)
         if not self._ends_idle:
             self._advance(max(self._end, self.now))
         return False
@@ -609,7 +609,7 @@ class VirtualTime(Executors):
             self.wake(wait)
         handlers = [
             (state, handler)
-            for state in self._core.states()
+            for state in self._core.nodes.states()
             if state.process.is_direct and state.spinning
             for handler in state.node.waitables
             if isinstance(handler, EventHandler) and handler.callback_group is not None
@@ -624,7 +624,7 @@ class VirtualTime(Executors):
         def tell() -> Any:  # noqa: ANN401 - a coroutine, if the callback makes one
             with suppress(InvalidHandle):
                 data = handler.take_data()
-                self._core.event_heard(handler, state)
+                self._core.reports.event_heard(handler, state)
                 return handler.callback(data)
 
         executor.create_task(tell)
@@ -698,7 +698,7 @@ class VirtualTime(Executors):
 
     def _raised(self, call: Call, name: str, error: BaseException) -> None:
         """Hand what a callback of a plain process raised to the session."""
-        self._core.callback_raised(call.state, name, error)
+        self._core.reports.callback_raised(call.state, name, error)
 
 
 def _is_told(call: Call) -> bool:

@@ -8,6 +8,7 @@ events nobody but itself knows. Here, too, is which processes are plain, and how
 from __future__ import annotations
 
 from _thread import get_ident
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -29,8 +30,8 @@ from rosbeat.ros.taking import has_known_group, take_message
 from rosbeat.ros.waits import Call, Switchboard, Wait
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import Host
     from rosbeat.ros.processes import NodeState
-    from rosbeat.ros.session_core import SessionCore
     from rosbeat.ros.wait_set import VirtualWaitSet
 
 #: A loop that looks at the clock or at its queues again and again lets so much time pass, in
@@ -63,7 +64,7 @@ class Executors(Switchboard):
         clocks: All clocks that show virtual time.
     """
 
-    def __init__(self, recorder: Recorder, core: SessionCore) -> None:
+    def __init__(self, recorder: Recorder, core: Host) -> None:
         super().__init__(core.next_number)
         self.timers: WeakValueDictionary[int, Timer] = WeakValueDictionary()
         self.clocks: WeakSet[Any] = WeakSet()
@@ -202,8 +203,8 @@ class Executors(Switchboard):
         take: Callable[..., Any],
     ) -> tuple[Call, Callable[..., Any]]:
         """Return a call for the callback of an entity, and a `take` that records that it runs."""
-        core, state = self._core, self._core.state_of(node)
-        entry = core.entry_of(entity)
+        core, state = self._core, self._core.nodes.state_of(node)
+        entry = core.nodes.entry_of(entity)
         process = state.process if state is not None else Process()
         call = Call(process, state, entry, entry.label if entry is not None else None)
         if entry is not None and entry.kind == "subscription" and _is_taken_by_us(entry):
@@ -212,7 +213,7 @@ class Executors(Switchboard):
         def taking(entity: Any) -> Any:  # noqa: ANN401 - rclpy's own
             work = take(entity)
             if work is not None:
-                core.callback_ran(entity, node)
+                core.reports.callback_ran(entity, node)
                 self.calling = call.label = call.label or self.calling
             return work
 
@@ -237,11 +238,11 @@ class Executors(Switchboard):
 
     def entry_of(self, timer: Timer | None) -> Entry | None:
         """Return what is known of a timer; None for one of an executor's own."""
-        return None if timer is None else self._core.entry_of(timer)
+        return None if timer is None else self._core.nodes.entry_of(timer)
 
     def entry_of_key(self, key: int) -> Entry | None:
         """Return the entity of a key, if it is one of the session's."""
-        return self._core.entry_of_key(key)
+        return self._core.nodes.entry_of_key(key)
 
     # Which processes executors run.
 
@@ -304,15 +305,15 @@ class Executors(Switchboard):
                 state, name = None, "spin"  # what no callback has raised
                 if failure is not None and failure[0] is error:
                     state, name = failure[1].state, failure[1].name
-                self._core.callback_raised(state or process.states[0], name, error)
+                self._core.reports.callback_raised(state or process.states[0], name, error)
             finally:
                 process.spinner = None
 
         self.start_greenlet(call, spin)
 
+    @abstractmethod
     def _hold(self, entry: Entry) -> None:
         """Keep for later what cannot run at once."""
-        raise NotImplementedError
 
 
 #: What an executor asks a node for.

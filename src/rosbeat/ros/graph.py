@@ -40,7 +40,7 @@ from rosbeat.ros.qos_events import fit, limit_ns
 from rosbeat.ros.recording import Channel, Memory, Message, Recorder, Unwatched, type_name
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import Domain
 
 
 # The graph of a session's own nodes.
@@ -324,7 +324,7 @@ def poll(done: Callable[[], object], deadline: float | None) -> bool:
     return True
 
 
-def wait_for_nodes(core: SessionCore, names: list[str], seconds: float) -> None:
+def wait_for_nodes(core: Domain, names: list[str], seconds: float) -> None:
     """Wait until nodes of these full names are in the graph, with all that belongs to them.
 
     Raises:

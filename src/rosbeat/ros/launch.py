@@ -24,8 +24,8 @@ from rosbeat.ros.recording import repair_message_classes
 
 if TYPE_CHECKING:
     from rosbeat.ros.errors import Console
+    from rosbeat.ros.ports import Starter
     from rosbeat.ros.processes import Process
-    from rosbeat.ros.session_core import SessionCore
 
 
 class Start(TypedDict, total=False):
@@ -127,7 +127,7 @@ def _refused(what: str, means: str) -> SessionError:
 
 
 def build_in(
-    core: SessionCore, targets: Sequence[Any], start: Launch, process: Process | None = None
+    core: Starter, targets: Sequence[Any], start: Launch, process: Process | None = None
 ) -> tuple[Node, ...]:
     """Make the nodes of a process in a session; if that fails, nothing of them is left there.
 
@@ -135,14 +135,14 @@ def build_in(
         NodeClassError: If a target is no class of nodes, function that returns one, or node.
         NodeConstructionError: If a constructor or function raises.
     """
-    before = core.states()
+    before = core.nodes.states()
     try:
         with core.starting(start, process):
             return tuple(_build_node(target, core.console) for target in targets)
     except BaseException:  # Interrupt, too
-        for state in core.states():
+        for state in core.nodes.states():
             if state not in before:
-                core.destroy(state)
+                core.lives.destroy(state)
         raise
 
 

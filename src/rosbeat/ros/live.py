@@ -27,8 +27,8 @@ from rosbeat.ros.processes import Entry
 from rosbeat.ros.taking import take_message
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import Host
     from rosbeat.ros.recording import Entity
-    from rosbeat.ros.session_core import SessionCore
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
 _STOP_TIMEOUT = 2.0
@@ -51,7 +51,7 @@ class LiveExecutor(SingleThreadedExecutor):
     `current` is the node whose callback is running, and `task` its task.
     """
 
-    def __init__(self, context: Context, core: SessionCore) -> None:
+    def __init__(self, context: Context, core: Host) -> None:
         self.current: Node | None = None
         self.task: Task | None = None
         self._core = core
@@ -62,11 +62,11 @@ class LiveExecutor(SingleThreadedExecutor):
     def get_nodes(self) -> list[Node]:
         """Return the nodes in order of creation; rclpy's own answer comes from an unordered set."""
         mine = self._nodes
-        return [one.node for one in self._core.states() if one.spinning and one.node in mine]
+        return [one.node for one in self._core.nodes.states() if one.spinning and one.node in mine]
 
     def start(self) -> None:
         """Begin to run callbacks."""
-        for state in self._core.states():
+        for state in self._core.nodes.states():
             for entry in state.entries if state.spinning else ():
                 self._run_taken_messages(entry)
         self._thread.start()
@@ -139,7 +139,7 @@ class LiveExecutor(SingleThreadedExecutor):
                 return
 
     def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
-        self._core.callback_ran(entity, node)
+        self._core.reports.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 
     def _run_one(self) -> None:
@@ -159,7 +159,7 @@ class LiveExecutor(SingleThreadedExecutor):
             self.current = self.task = None
         error = error or handler.exception()
         if error is not None:
-            self._core.entity_raised(node, entity, error)
+            self._core.reports.entity_raised(node, entity, error)
 
     def _break_off(self) -> None:
         # Nothing else ends Python code in another thread: a signal is handled in the main thread

@@ -15,7 +15,7 @@ from __future__ import annotations
 import os
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import wraps
 from itertools import pairwise
@@ -304,7 +304,7 @@ _effective_level = rclpy_implementation.rclpy_logging_get_logger_effective_level
 
 
 @wraps(_log)
-def _hooked_log(
+def hooked_log(
     logger: RcutilsLogger,
     message: str,
     severity: LoggingSeverity,
@@ -355,7 +355,7 @@ def _in_place_of(logger: RcutilsLogger, source: _Source) -> Iterator[None]:
 
 
 @wraps(_get_child)
-def _hooked_child(logger: RcutilsLogger, name: str) -> RcutilsLogger:
+def hooked_child(logger: RcutilsLogger, name: str) -> RcutilsLogger:
     """Return a logger below this one, heard by the same session."""
     child = _get_child(logger, name)
     bound: _Source | None = logger.__dict__.get("_rosbeat_source")
@@ -385,21 +385,25 @@ def _source_here() -> _Source | None:
     return None if host is None else _Source(host, _Memory(), host.process_here())
 
 
-def _hooked_send(severity: int, name: str, *rest: Any) -> None:  # noqa: ANN401 - passed on
+def hooked_send(severity: int, name: str, *rest: Any) -> None:  # noqa: ANN401 - passed on
+    """Send a line to rcl, as a process wants it whose code is running."""
     (_send if _here.source is None else _send_anyway)(severity, name, *rest)
 
 
-def _hooked_is_enabled(name: str, severity: int) -> bool:
+def hooked_is_enabled(name: str, severity: int) -> bool:
+    """Return whether a logger logs lines of a severity, in the process that asks."""
     source = _source_here()
     return bool(_is_enabled(name, severity)) if source is None else source.level(name) <= severity
 
 
-def _hooked_effective_level(name: str) -> int:
+def hooked_effective_level(name: str) -> int:
+    """Return from which level on a logger logs, in the process that asks."""
     source = _source_here()
     return int(_effective_level(name)) if source is None else source.level(name)
 
 
-def _hooked_get_level(name: str) -> int:
+def hooked_get_level(name: str) -> int:
+    """Return the level that was set for a logger, in the process that asks."""
     source = _source_here()
     if source is None:
         return int(_get_level(name))
@@ -407,25 +411,10 @@ def _hooked_get_level(name: str) -> int:
     return own if own is not None else 0 if name else _DEFAULT
 
 
-def _hooked_set_level(name: str, level: int, detailed_error: bool = False) -> None:
+def hooked_set_level(name: str, level: int, detailed_error: bool = False) -> None:
+    """Set the level of a logger, in the process that asks."""
     source = _source_here()
     if source is None:
         _set_level(name, level, detailed_error)
     else:
         levels_of(source.process or source.host).set(name, int(level))
-
-
-def _install() -> None:
-    hooks: dict[str, Callable[..., Any]] = {
-        "rclpy_logging_rcutils_log": _hooked_send,
-        "rclpy_logging_logger_is_enabled_for": _hooked_is_enabled,
-        "rclpy_logging_get_logger_effective_level": _hooked_effective_level,
-        "rclpy_logging_get_logger_level": _hooked_get_level,
-        "rclpy_logging_set_logger_level": _hooked_set_level,
-    }
-    for name, hook in hooks.items():
-        setattr(rclpy_implementation, name, wraps(getattr(rclpy_implementation, name))(hook))
-    RcutilsLogger.log, RcutilsLogger.get_child = _hooked_log, _hooked_child
-
-
-_install()  # at import, so exactly once in a process

@@ -26,8 +26,8 @@ from rosbeat.ros.processes import Entry, NodeState, callback_name
 from rosbeat.ros.taking import Work, message_work
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import LimitHost
     from rosbeat.ros.recording import Entity, PublisherTap
-    from rosbeat.ros.session_core import SessionCore
 
 # The middleware counts deadlines and lifespans by the wall clock, and in virtual time a minute
 # takes milliseconds. So a publisher or a subscription is made with three years more than the
@@ -252,7 +252,7 @@ class Deadlines(list[Deadline]):
 class Limits:
     """Count the missed deadlines and apply the lifespans of one session."""
 
-    def __init__(self, core: SessionCore) -> None:
+    def __init__(self, core: LimitHost) -> None:
         self._core, self._thread = core, get_ident()
         # By topic: the subscriptions that have a deadline, and how they hear of a message.
         self._waiting: dict[str, list[tuple[Entry, Callable[[], None]]]] = {}
@@ -276,7 +276,7 @@ class Limits:
         """Count what a new subscription asks for."""
         qos, core = entry.entity.qos_profile, self._core
         lifespan = limit_ns(qos.lifespan)
-        taps = [tap for one in core.states() for tap in one.taps if tap.topic == entry.name]
+        taps = [tap for one in core.nodes.states() for tap in one.taps if tap.topic == entry.name]
         stored = [tap for tap in taps if tap.stores_for(qos)]
         # What is sent on topics that every node has is not recorded.
         if entry.name not in INFRASTRUCTURE_TOPICS and (

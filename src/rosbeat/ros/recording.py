@@ -51,7 +51,7 @@ from rosbeat.ros.exception_origin import asking, is_message_class
 from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import AllPorts
 
 #: What rclpy hands over without a base class or types: the messages, requests, responses, goals and
 #: results of generated classes, and the entities of a node, such as publishers, timers and clients.
@@ -456,19 +456,22 @@ class Unwatched:
     """Mix this into a node of the session's own, so that its session is not told."""
 
 
-def core_of(node: Node) -> SessionCore | None:
-    """Return the `SessionCore` of a node; None if it is in no session, or not yet a node."""
+def core_of(node: Node) -> AllPorts | None:
+    """Return the session of a node; None if it is in no session, or not yet a node."""
     if isinstance(node, Unwatched):
         return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
-    return getattr(node.__dict__.get("_context"), "session_core", None)
+    core: AllPorts | None = getattr(node.__dict__.get("_context"), "session_core", None)
+    return core
 
 
-def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
+def watch_birth(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `Node.__init__`, so that the node starts as its session says, which hears of it."""
+
     @wraps(original)
     def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - passed on
         context: Any = kwargs.get("context") or get_default_context()
-        core = getattr(context, "session_core", None)
+        core: AllPorts | None = getattr(context, "session_core", None)
         name = kwargs.get("node_name", args[0] if args else None)
         with asking("Node.__init__", node, *args, **kwargs):
             if core is None or not isinstance(name, str) or isinstance(node, Unwatched):
@@ -517,7 +520,8 @@ def in_kernel() -> bool:
     return "ipykernel.kernelapp" in sys.modules
 
 
-def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
+def watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
+    """Wrap a `Node.create_...`, so that the session watches what it makes, of this kind."""
     signature = inspect.signature(original)
 
     @wraps(original)
@@ -564,7 +568,7 @@ def _refuse_a_message(call: str, kind: object) -> None:
 
 
 def _channel_of_type(
-    node: Node, core: SessionCore, kind: str, msg_type: object, topic: object
+    node: Node, core: AllPorts, kind: str, msg_type: object, topic: object
 ) -> tuple[str, str] | None:
     """Return the full name of a topic that exists with another type, and the name of a channel.
 
@@ -583,9 +587,9 @@ def _channel_of_type(
         full = node.resolve_topic_name(topic)
     except (InvalidTopicNameException, rclpy_implementation.RCLError):
         return None  # rclpy says so itself, with the name
-    own = core.state_of(node)
+    own = core.nodes.state_of(node)
     is_separate = core.has_separate_types
-    for state in core.states():
+    for state in core.nodes.states():
         if is_separate and own is not None and state.process is not own.process:
             continue
         for end in (*state.node.publishers, *state.node.subscriptions):
@@ -614,50 +618,63 @@ def _renamed(endpoint: Any, topic: str) -> Any:  # noqa: ANN401 - a publisher or
     return endpoint
 
 
-def _install() -> None:
-    # The two public methods that list publishers and subscriptions both ask `_get_info_by_topic`.
-    destroy, get_logger, infos = Node.destroy_node, Node.get_logger, Node._get_info_by_topic
+def watch_end(original: Callable[[Node], None]) -> Callable[[Node], None]:
+    """Wrap `Node.destroy_node`, so that the session forgets the node first."""
 
-    @wraps(destroy)
-    def watched_destroy(node: Node) -> None:
+    @wraps(original)
+    def destroy_node(node: Node) -> None:
         core = core_of(node)
         if core is not None:
             core.node_ends(node)
-        destroy(node)
+        original(node)
 
-    @wraps(get_logger)
-    def watched_logger(node: Node) -> RcutilsLogger:
+    return destroy_node
+
+
+def watch_logger(original: Callable[[Node], RcutilsLogger]) -> Callable[[Node], RcutilsLogger]:
+    """Wrap `Node.get_logger`, so that the session hears of the node's lines."""
+
+    @wraps(original)
+    def get_logger(node: Node) -> RcutilsLogger:
         core = core_of(node)
-        return get_logger(node) if core is None else core.logger_of(node, get_logger(node))
+        return original(node) if core is None else core.logger_of(node, original(node))
 
-    @wraps(infos)
-    def watched_infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401 - passed on
-        told = infos(node, *args, **kwargs)
-        return told if core_of(node) is None else as_written(told)
+    return get_logger
 
-    guard, waitable = Node.create_guard_condition, Node.add_waitable
 
-    @wraps(guard)
-    def watched_guard(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - passed on
-        made = guard(node, *args, **kwargs)
+def show_as_written(original: Callable[..., list[Any]]) -> Callable[..., list[Any]]:
+    """Wrap what lists endpoints, so that it shows the QoS that a program has written."""
+
+    @wraps(original)
+    def get_info_by_topic(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401 - passed on
+        infos = original(node, *args, **kwargs)
+        return infos if core_of(node) is None else as_written(infos)
+
+    return get_info_by_topic
+
+
+def watch_guards(original: Callable[..., Any]) -> Callable[..., Any]:
+    """Wrap `Node.create_guard_condition`, so that rclpy's own executor runs the node."""
+
+    @wraps(original)
+    def create_guard_condition(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - passed on
+        made = original(node, *args, **kwargs)
         core = core_of(node)
         if core is not None:
             core.waitable_made(node)
         return made
 
-    @wraps(waitable)
-    def watched_waitable(node: Node, added: Any) -> None:  # noqa: ANN401 - any waitable
-        waitable(node, added)
+    return create_guard_condition
+
+
+def watch_waitables(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `Node.add_waitable`, so that rclpy's own executor runs the node."""
+
+    @wraps(original)
+    def add_waitable(node: Node, added: Any) -> None:  # noqa: ANN401 - any waitable
+        original(node, added)
         core = core_of(node)
         if core is not None and not isinstance(added, EventHandler):
             core.waitable_made(node)
 
-    Node.create_guard_condition, Node.add_waitable = watched_guard, watched_waitable
-    Node.__init__ = _watch_birth(Node.__init__)
-    Node.destroy_node, Node.get_logger = watched_destroy, watched_logger
-    Node._get_info_by_topic = watched_infos
-    for method, kind in ENTITY_METHODS.items():
-        setattr(Node, method, _watch_entity(getattr(Node, method), kind))
-
-
-_install()  # at import, so exactly once in a process
+    return add_waitable

@@ -268,15 +268,15 @@ class Steps:
 
     def _change(self, step: Step) -> tuple[str, str]:
         name, text = step.node or self.subject, ""
-        state = self._core.named("/" + name.lstrip("/"))
+        state = self._core.nodes.named("/" + name.lstrip("/"))
         if state is None:
             return name, "no such node"
         if isinstance(step, Remove):
-            self._core.destroy(state)
+            self._core.lives.destroy(state)
         elif isinstance(step, Pause):
-            self._core.pause_node(state)
+            self._core.lives.pause_node(state)
         elif isinstance(step, Resume) and not state.ended:
-            self._core.spin_node(state)
+            self._core.lives.spin_node(state)
         elif isinstance(step, SetParameter | SetParameters):
             text = self._set(step, state, state.node)
         return state.name, text
@@ -297,7 +297,7 @@ class Steps:
         except RosbeatError:
             raise
         except Exception as error:  # a callback of the learner's own
-            self._core.callback_raised(state, "set_parameters", error)
+            self._core.reports.callback_raised(state, "set_parameters", error)
             text = f"raised {type(error).__name__}"
         return f"{', '.join(values)}: {text}"
 
@@ -421,8 +421,8 @@ class _Run:
             self._core.explain_init = _refuse_init  # type: ignore[method-assign]  # this session only
             self._core.explain_shutdown = self._shut_down  # type: ignore[method-assign]  # the same
         node = self._add(replace(answer, make=make))
-        self._steps.subject = self._core.name_of(node) or ""
-        state = self._core.state_of(node)
+        self._steps.subject = self._core.nodes.name_of(node) or ""
+        state = self._core.nodes.state_of(node)
         if self._ended_early and state is not None:
             state.spinning, state.ended = False, True
             state.process.refresh()
@@ -536,7 +536,7 @@ class _Run:
         """Return what a callback has made call after call, until all was slow; or an empty text."""
         calls = [one for one in self._core.recorder.callbacks()
                  if (one.node, one.name) == (node, callback)]  # fmt: skip
-        state = self._core.named(node)
+        state = self._core.nodes.named(node)
         if state is None or len(calls) < _MANY:  # else it has made them in one call
             return ""
         made = Counter(f"publishers on {one.topic_name}" for one in state.node.publishers)

@@ -13,9 +13,8 @@ from rclpy.node import Node
 from rosbeat.domains import LAST_DOMAIN
 from rosbeat.errors import SessionError, called_as
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
-from rosbeat.ros import spinning
 from rosbeat.ros.clock import LATEST_START, START
-from rosbeat.ros.context import install_learner_calls, show_briefly
+from rosbeat.ros.context import show_briefly
 from rosbeat.ros.errors import (
     Console,
     check_middleware,
@@ -32,7 +31,7 @@ from rosbeat.ros.errors import (
 from rosbeat.ros.graph import poll, wait_for_nodes
 from rosbeat.ros.launch import Launch, Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
-from rosbeat.ros.session_core import SessionCore, find, state_of
+from rosbeat.ros.session_core import SessionCore
 from rosbeat.ros.simulated_program import SimulatedProgram
 
 if TYPE_CHECKING:
@@ -40,10 +39,6 @@ if TYPE_CHECKING:
 
 
 SomeNode = TypeVar("SomeNode", bound=Node)
-
-
-install_learner_calls()
-spinning.install()
 
 
 class Session:
@@ -81,7 +76,7 @@ class Session:
     def __repr__(self) -> str:
         if self._core.closed:
             return "Session(closed)"
-        names = ", ".join(state.name for state in self._core.states()) or "no nodes"
+        names = ", ".join(state.name for state in self._core.nodes.states()) or "no nodes"
         mode = "live" if self.is_live else "virtual time"
         return f"Session({mode}, {self.time:g} s, {names})"
 
@@ -110,7 +105,7 @@ class Session:
     @property
     def nodes(self) -> tuple[Node, ...]:
         """Return the nodes of this session, in order of creation."""
-        return tuple(state.node for state in self._core.states())
+        return tuple(state.node for state in self._core.nodes.states())
 
     # Nodes.
 
@@ -189,11 +184,11 @@ class Session:
             )
         process = Process(threads)
         made = build_in(self._core, given, start, process)
-        states = [state_of(self._core, node) for node in made]
+        states = [self._core.nodes.member(node) for node in made]
         for state in states:
             process.adopt(state)
         for state in states:
-            self._core.spin_node(state)
+            self._core.lives.spin_node(state)
         for maker, node in zip(given, made, strict=True):
             if node is not maker:
                 self._core.makers[node] = Maker(maker, start)
@@ -235,7 +230,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._core.destroy(find(self._core, node))
+        self._core.lives.destroy(self._core.nodes.find(node))
 
     @called_as('ros.pause("sensor")')
     def pause(self, node: Node | str) -> None:
@@ -247,7 +242,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._core.pause(node)
+        self._core.lives.pause(node)
 
     @called_as('ros.resume("sensor")')
     def resume(self, node: Node | str) -> None:
@@ -259,7 +254,7 @@ class Session:
             SessionError: If the session has no such node, or it ended with an exception.
         """
         self._check_open()
-        self._core.resume(node)
+        self._core.lives.resume(node)
 
     # Time.
 
@@ -287,7 +282,7 @@ class Session:
             try:
                 self._run_nodes(self._core.now() + span)
             except KeyboardInterrupt as interrupt:
-                ended = self._core.break_endless_off(interrupt)
+                ended = self._core.reports.break_endless_off(interrupt)
                 usual = f"stopped at {self.time:g} s; the session is still open."
                 show_briefly(interrupt, ended or usual)
                 raise
@@ -335,7 +330,7 @@ class Session:
             deadline = time.monotonic() + duration_ns(seconds, "wait(seconds=...)") / 1e9
 
         def is_done() -> object:
-            self._core.show_news()
+            self._core.reports.show_news()
             return until is not None and until()
 
         self._core.console.begin()
@@ -346,7 +341,7 @@ class Session:
             self._core.interrupt()
             raise
         finally:
-            self._core.show_news()
+            self._core.reports.show_news()
             self._core.console.end()
 
     @called_as('ros.wait_for_nodes("sensor")')
@@ -381,7 +376,7 @@ class Session:
         """
         self._check_call("stop")
         self._core.go_virtual()
-        self._core.show_news()
+        self._core.reports.show_news()
 
     @called_as("ros.close()")
     def close(self) -> None:
@@ -404,7 +399,7 @@ class Session:
             UnknownTopicError: If the topic never had a publisher in this session.
             SessionError: If `topic` is not a name.
         """
-        self._core.show_faults()
+        self._core.reports.show_faults()
         name = "/" + check_name("messages", topic).lstrip("/")
         outside = self._core.external_messages
         known = self._core.recorder.topics().union(outside.topics() if outside else ())
@@ -422,11 +417,13 @@ class Session:
         Raises:
             SessionError: If `node` is neither a name nor a node that is or was in this session.
         """
-        self._core.show_faults()
+        self._core.reports.show_faults()
         records = tuple(self._core.recorder.logs)
         if node is None:
             return records
-        name = self._core.name_of(node) if isinstance(node, Node) else check_name("logs", node)
+        name = (
+            self._core.nodes.name_of(node) if isinstance(node, Node) else check_name("logs", node)
+        )
         if name is None:
             raise foreign_node(cast(Node, node))
         wanted = name.strip("/").replace("/", ".")
@@ -439,7 +436,7 @@ class Session:
         In a domain that was joined with `domain_id`, the nodes of other processes are included as
         far as they are known yet; see `wait_for_nodes`.
         """
-        self._core.show_faults()
+        self._core.reports.show_faults()
         return self._core.graph()
 
     @called_as("ros.observation()")
@@ -448,7 +445,7 @@ class Session:
 
         Of a session that has ended it holds the graph as it was just before the end.
         """
-        self._core.show_faults()
+        self._core.reports.show_faults()
         recorder = self._core.recorder
         return Observation(
             self._core.now(),
@@ -482,4 +479,4 @@ class Session:
     def _check_open(self) -> None:
         if self._core.closed:
             raise session_has_ended()
-        self._core.show_faults()
+        self._core.reports.show_faults()

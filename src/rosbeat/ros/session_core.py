@@ -2,80 +2,40 @@
 
 from __future__ import annotations
 
-import sys
-import threading
 import time
 from _thread import get_ident
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
-from functools import partial
-from inspect import iscoroutine
 from itertools import count
-from traceback import walk_tb
-from types import FrameType
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
 
-import rclpy.utilities
-from greenlet import getcurrent
-from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
-from rclpy.executors import Executor, MultiThreadedExecutor
+from rclpy.executors import Executor
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
-from rclpy.publisher import Publisher
-from rclpy.task import Future
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.errors import SessionError
-from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
-from rosbeat.ros.actions import action_of
+from rosbeat.records import NANOSECONDS, GraphSnapshot, LogRecord
+from rosbeat.ros import hooks  # noqa: F401 - its import lets rclpy tell sessions of nodes
 from rosbeat.ros.clock import START, VirtualClock, VirtualNames, make_clock
 from rosbeat.ros.context import SessionContext
-from rosbeat.ros.differences import RAISES_WHEN_CALL_TIMES_OUT, tasks_of
 from rosbeat.ros.engine import LONGEST_WAIT, VirtualTime
-from rosbeat.ros.errors import (
-    INSTEAD_OF_WAITING,
-    Console,
-    check_name,
-    deadlock,
-    foreign_node,
-    no_such_node,
-    node_has_ended,
-    note,
-)
-from rosbeat.ros.exception_origin import fault_of, is_learners, line_of
+from rosbeat.ros.entity_watch import EntityWatch
+from rosbeat.ros.errors import INSTEAD_OF_WAITING, Console, check_name, note
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.isolation import SeededRandom, quitting_raises
-from rosbeat.ros.launch import Launch, Maker, build_in
-from rosbeat.ros.live import BrokenOff, LiveExecutor
+from rosbeat.ros.launch import Launch, Maker
+from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.logs import bind, close_host, open_host
-from rosbeat.ros.processes import (
-    INTERRUPTED,
-    RAISED,
-    SHUT_DOWN,
-    Ending,
-    Entry,
-    NodeState,
-    Process,
-    callback_name,
-    full_name,
-)
-from rosbeat.ros.qos_events import Limits, wait_for_stored
-from rosbeat.ros.recording import (
-    Entity,
-    Memory,
-    Message,
-    PublisherTap,
-    Recorder,
-    repair_message_classes,
-)
-from rosbeat.ros.taking import TAKERS
-from rosbeat.ros.wait_set import ProcessExecutor, waitable_label, waitable_name
-from rosbeat.ros.waits import _BOARD, Call, Wait
-
-#: Seconds after which an interrupt is meant for the callback that it hits.
-_ENDLESS = 1.0
+from rosbeat.ros.node_lives import NodeLives, end_coroutines
+from rosbeat.ros.node_registry import NodeRegistry
+from rosbeat.ros.processes import SHUT_DOWN, Ending, NodeState, Process, full_name
+from rosbeat.ros.qos_events import Limits
+from rosbeat.ros.recording import Entity, Recorder, repair_message_classes
+from rosbeat.ros.reports import Reports
+from rosbeat.ros.waits import _BOARD, Call
 
 
 class SessionCore:
@@ -86,6 +46,10 @@ class SessionCore:
     nothing else refers to it.
 
     Attributes:
+        nodes: Which nodes and entities there are.
+        lives: Runs, rests, restarts and ends nodes.
+        watch: Replaces methods of each new entity.
+        reports: What is recorded and printed of callbacks, faults and log lines.
         virtual: The engine of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
         domain_id: The domain that the session has joined; None in a private session.
@@ -109,17 +73,13 @@ class SessionCore:
         console: Console | None = None,
         start_time: int = START,
     ) -> None:
-        self._states: dict[Node, NodeState] = {}
-        self._entries: dict[Any, Entry] = {}
-        self._keys: dict[int, Entry] = {}
+        self.nodes = NodeRegistry()
         self.replaces_nodes = False
         self.has_separate_types = domain_id is None
         self.topic_types: dict[str, type] = {}
-        # A destroyed node cannot say its name, and a destroyed action stays in the graph.
-        self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
+        # A destroyed action stays in the graph.
         self.action_ends: WeakSet[Any] = WeakSet()
         self._goals = count(1)
-        self._processes: WeakSet[Process] = WeakSet()
         self.next_number = count(1).__next__
         repair_message_classes()
         self.domain_id = domain_id
@@ -127,6 +87,9 @@ class SessionCore:
         self.start = Launch()
         self.recorder = Recorder()
         self.console = console or Console()
+        self.reports = Reports(self)
+        self.watch = EntityWatch(self)
+        self.lives = NodeLives(self)
         self.context = SessionContext(self, domain_id)
         self.virtual = VirtualTime(self.recorder, self, start_time * NANOSECONDS)
         self.live: LiveExecutor | None = None
@@ -134,10 +97,9 @@ class SessionCore:
         self.closed = False
         self.panel: Any = None
         self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
-        self._names_of_time = VirtualNames(self.virtual, self._entries.get)
+        self._names_of_time = VirtualNames(self.virtual, self.nodes.entry_of)
         self._random = SeededRandom(seed)
         self._live_since = 0
-        self._shown_logs = self._shown_faults = 0
         self._last_graph: GraphSnapshot | None = None
         self.graph_observer = None if domain_id is None else GraphObserver(self.context)
         self.external_messages = self.graph_observer and ExternalMessages(
@@ -152,162 +114,14 @@ class SessionCore:
             return self.virtual.now
         return self.virtual.now + time.monotonic_ns() - self._live_since
 
-    # Which nodes there are.
-
-    def states(self) -> list[NodeState]:
-        """Return all nodes that have not been destroyed, in order of creation."""
-        return list(self._states.values())
-
-    def named(self, name: str) -> NodeState | None:
-        """Return the node of this full name."""
-        return next((state for state in self.states() if state.name == name), None)
-
-    def state_of(self, node: Node | None) -> NodeState | None:
-        """Return what is known of a node."""
-        return self._states.get(node)
-
-    def entry_of(self, entity: Any) -> Entry | None:  # noqa: ANN401 - any entity of rclpy
-        """Return what is known of an entity."""
-        return self._entries.get(entity)
-
-    def entry_of_key(self, key: int) -> Entry | None:
-        """Return the entity of a key in a wait set."""
-        return self._keys.get(key)
-
-    def name_of(self, node: Node) -> str | None:
-        """Return the full name of a node that is or was here."""
-        return self._names.get(node)
-
     def graph(self) -> GraphSnapshot:
         """Return the graph as it is now, or as it was when the session ended."""
         if self._last_graph is not None:
             return self._last_graph
-        own = snapshot(self.states())
+        own = snapshot(self.nodes.states())
         return with_other_processes(own, self.graph_observer) if self.graph_observer else own
 
-    # Nodes come, run, rest and go.
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-        state.paused = False
-        process = state.process
-        if self.live is not None:
-            state.spinning = True
-            state.node.executor = self.live
-            self.live.wake()
-        elif process.program is None:
-            self._spin_in_process(state)
-        else:
-            state.spinning = state.node.executor is not None
-            self.virtual.entities_changed()
-        self.virtual.resume(state)
-
-    def _spin_in_process(self, state: NodeState) -> None:
-        process = state.process
-        if process.executor is None:
-            with self.starting(Launch(), process):
-                process.executor = self._make_executor(process)
-        if len(process.states) == 1 and process.pool_size == 1:
-            # As in the `main` of most programs: `rclpy.spin(node)`.
-            process.global_executor = process.executor
-        state.spinning = True
-        state.node.executor = process.executor
-        self._adopt_entities(state)
-        self.virtual.spin_process(process)
-
-    def _make_executor(self, process: Process) -> Executor:
-        if process.pool_size == 1:
-            return ProcessExecutor(self, process)
-        return MultiThreadedExecutor(process.pool_size, context=self.context)
-
-    def _adopt_entities(self, state: NodeState) -> None:
-        """Watch entities that no `create_*` of the node has made, as in a lifecycle node."""
-        for kind in ("subscription", "service", "client", "timer"):
-            # Not the node's own attribute, which its class may have replaced.
-            for entity in getattr(Node, f"{kind}s").fget(state.node):
-                if entity not in self._entries:
-                    self._watch(state, kind, entity)
-
-    def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
-        """Note that an executor has begun or ceased to spin a node."""
-        state = self._states.get(node)
-        if state is None:
-            return
-        state.spinning = spins and not (state.paused or state.ended)
-        state.process.refresh()
-        if spins and state.process.program is not None:
-            self._adopt_entities(state)
-        if spins:
-            self.virtual.entities_changed()
-        elif executor is state.process.executor and self.virtual.in_callback:
-            note(
-                f"a spin function of rclpy has removed {state.name} from the executor of its "
-                "process, so its callbacks no longer run."
-            )
-
-    def pause_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
-        state.spinning = False
-        state.process.refresh()
-        self.virtual.entities_changed()
-        if self.live is not None:
-            self.live.wake()  # it may be waiting for this node
-
-    def pause(self, node: Node | str) -> None:
-        """Pause a node, given itself or by name; raise a SessionError if there is no such node."""
-        state = find(self, node)
-        self.pause_node(state)
-        state.paused = True
-
-    def resume(self, node: Node | str) -> None:
-        """Resume a node, given itself or by name.
-
-        Raises:
-            SessionError: If there is no such node, or it has ended.
-        """
-        state = find(self, node)
-        if state.ended:
-            raise node_has_ended(state.name)
-        self.spin_node(state)
-
-    def restart(self, name: str, maker: Maker) -> None:
-        """Make a node of this name as it was made before, and run its callbacks.
-
-        Raises:
-            SessionError: If another session is open.
-            NodeConstructionError: If its constructor raises.
-        """
-        # A node names no context, so it would land in the session that was opened last.
-        if rclpy.utilities.g_default_context is not self.context:
-            raise SessionError(
-                f"{name} cannot be started now.",
-                "Another session is open, and a new node would belong to that session.",
-                "Close the other session first, or wait until the running check has ended.",
-            )
-        (made,) = build_in(self, [maker.make], maker.start)
-        self.makers[made] = maker
-        self.spin_node(self._states[made])
-
-    def end_process(self, process: Process, ending: Ending) -> None:
-        """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
-        for state in list(process.states):
-            self.pause_node(state)
-            state.ended, state.ending = True, state.ending or ending
-        process.is_over = True
-        for call in [call for call in process.calls if call.wait is not None]:
-            self.virtual.break_off(call)
-        if process.executor is not None:
-            _end_coroutines(process.executor)
-
-    def destroy(self, state: NodeState) -> None:
-        """Destroy a node, whole or half-made."""
-        try:
-            state.node.destroy_node()
-        except Exception:
-            # Its constructor stopped half-way, or its own destroy_node raises, or did half of it.
-            with suppress(AttributeError, InvalidHandle):
-                Node.destroy_node(state.node)
-            self.node_ends(state.node)
+    # How nodes are started.
 
     @contextmanager
     def starting(self, start: Launch, process: Process | None = None) -> Iterator[None]:
@@ -329,12 +143,12 @@ class SessionCore:
         It has to go first: rcl keeps one log publisher for each name and removes it with the first
         node of that name that is destroyed.
         """
-        old = self.named(full_name(name, namespace)) if self.replaces_nodes else None
+        old = self.nodes.named(full_name(name, namespace)) if self.replaces_nodes else None
         if old is not None:
             call, program = self.virtual.current, old.process.program
             if program is not None and (call is None or call.process is not old.process):
                 program.kill()
-            self.destroy(old)
+            self.lives.destroy(old)
 
     def node_made(self, node: Node) -> None:
         """Note that `Node.__init__` has returned."""
@@ -348,65 +162,54 @@ class SessionCore:
         elif clock is not None:
             # In the place of the clock that rclpy's constructor has just made.
             node._clock = make_clock(self.virtual)
-        if node not in self._states:
-            name = node.get_fully_qualified_name()
+        if node not in self.nodes:
             call = self.virtual.current
             process = call.process if call is not None and self.live is None else Process()
-            state = NodeState(len(self._states), name, node, process, born_ns=self.now())
-            process.states.append(state)
-            self._processes.add(process)
-            self._states[node] = state
-            self._names[node] = name
+            self.nodes.add_node(node, process, self.now())
 
     def entity_made(self, node: Node, kind: str, entity: Entity) -> None:
         """Tap what sends; run the callbacks of whatever has some."""
-        state = self._states[node]
         self.virtual.entities_changed()
-        if kind in ("publisher", "subscription"):
-            entity.destroy = partial(self._destroyed_by_itself, state, entity, entity.destroy)
-        if kind == "publisher":
-            self._tap_publisher(state, entity)
-        elif kind == "rate":
-            # A rate has no public name for its timer.
-            entity.sleep = partial(self._sleep, self._entries[entity._timer], entity.sleep)
-            with self.running(), self.starting(self.start, state.process):
-                entity._event = threading.Event()  # one that waits in virtual time
-            entity._timer.callback = entity._event.set
-        else:
-            self._watch(state, kind, entity)
-
-    def _destroyed_by_itself(
-        self, state: NodeState, entity: Entity, destroy: Callable[[], None]
-    ) -> None:
-        """Let rclpy say what comes of an entity that is destroyed and still its node's."""
-        destroy()
-        with suppress(InvalidHandle):  # the node itself was destroyed
-            if any(one is entity for one in (*state.node.publishers, *state.node.subscriptions)):
-                self.virtual.hand_over(state.process)
+        self.watch.begin(self.nodes[node], kind, entity)
 
     def waitable_made(self, node: Node) -> None:
         """Let rclpy's own executor run a node that has guard conditions or waitables."""
         self.entity_begins(node)
-        self.virtual.hand_over(self._states[node].process)
+        self.virtual.hand_over(self.nodes[node].process)
 
     def node_ends(self, node: Node) -> None:
         """Forget a node that is about to be destroyed."""
-        state = self._states.pop(node, None)
+        state = self.nodes.remove_node(node)
         if state is None:
             return
         state.spinning, state.ended = False, True
         self.virtual.forget(state)
         if isinstance(node.executor, Executor):
-            _end_coroutines(node.executor, state)
-        for entry in state.entries:
-            self._entries.pop(entry.entity, None)
-            self._keys.pop(entry.key, None)
+            end_coroutines(node.executor, state)
+        self.nodes.remove_entries(state)
         if node.executor is not None:
             node.executor.remove_node(node)
 
+    def executor_changed(self, executor: Executor, node: Node, spins: bool) -> None:
+        """Note that an executor has begun or ceased to spin a node."""
+        state = self.nodes.state_of(node)
+        if state is None:
+            return
+        state.spinning = spins and not (state.paused or state.ended)
+        state.process.refresh()
+        if spins and state.process.program is not None:
+            self.watch.adopt(state)
+        if spins:
+            self.virtual.entities_changed()
+        elif executor is state.process.executor and self.virtual.in_callback:
+            note(
+                f"a spin function of rclpy has removed {state.name} from the executor of its "
+                "process, so its callbacks no longer run."
+            )
+
     def logger_of(self, node: Node, logger: RcutilsLogger) -> RcutilsLogger:
         """Return the logger that the node's code gets: its lines come to this session."""
-        state = self._states.get(node)
+        state = self.nodes.state_of(node)
         if state is not None:
             bind(logger, self, state)
         return logger
@@ -420,7 +223,7 @@ class SessionCore:
         call = self.virtual.current
         state = call.state if call is not None else None
         if self.live is not None and self.live.is_this_thread():
-            state = self.state_of(self.live.current)
+            state = self.nodes.state_of(self.live.current)
         if state is None:
             note("rclpy.shutdown() does not close this session; use `ros.close()`.")
             return
@@ -435,7 +238,7 @@ class SessionCore:
         if process.spinner is not None:
             self.virtual.break_off(process.spinner)
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes keep running.")
-        self._note_neighbors(state)
+        self.reports.note_neighbors(state)
 
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it.
@@ -458,102 +261,6 @@ class SessionCore:
         return self.live is None and self.external_messages is None
 
     # What the executors and actions tell.
-
-    def callback_ran(self, entity: Entity, node: Node | None) -> None:
-        """Record a callback that is about to run, live or through rclpy's wait set."""
-        entry, state = self._entries.get(entity), self.state_of(node)
-        if entry is not None:
-            entry.calls += 1
-            with self.recorder.lock:
-                self.recorder.add_callback(self.now(), entry.label_number)
-        # An action tells by itself, as soon as it knows what it was.
-        elif state is not None and not action_of(entity, state):
-            self.heard(state, *waitable_label(entity, state.node))
-
-    def event_heard(self, handler: Entity, state: NodeState) -> None:
-        """Record the callback of a QoS event that is about to run."""
-        self.heard(state, *waitable_label(handler, state.node))
-
-    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
-        """Record a callback of an action or another waitable that is about to run."""
-        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
-        with self.recorder.lock:
-            self.recorder.add_callback(self.now(), label.number)
-
-    def entity_raised(self, node: Node | None, entity: Entity, error: BaseException) -> None:
-        """Record an exception that left a callback, in live mode."""
-        entry = self._entries.get(entity)
-        state = entry.state if entry else self.state_of(node)
-        name = entry.label.name if entry else "a task" if entity is None else waitable_name(entity)
-        self.callback_raised(state, name, error)
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """Record an exception that left a callback; end its process, and let the others go on."""
-        node = state.name if state else "A task"
-        fault = fault_of(error, self.now(), node, name)
-        self.recorder.faults.append(fault)
-        self.console.raised(fault, error)
-        repair_message_classes()
-        if state is not None:
-            kind = INTERRUPTED if isinstance(error, BrokenOff) else RAISED
-            self.end_process(state.process, Ending(kind, state.name, name, self.now()))
-        if self.live is None:
-            self.show_news()
-            if state is not None:
-                self._note_neighbors(state)
-
-    def _note_neighbors(self, state: NodeState) -> None:
-        """Say which nodes have ended with another one of their process."""
-        others = [one.name for one in state.process.states if one is not state]
-        if others:
-            note(f"{', '.join(others)} ran in the same process, which has ended.")
-
-    def break_endless_off(self, interrupt: KeyboardInterrupt) -> str:
-        """End the node whose callback an interrupt has hit, if the callback had run for long.
-
-        Args:
-            interrupt: The interrupt, as the session's `run` catches it.
-
-        Returns:
-            What to say, in three parts; an empty text if no callback had.
-        """
-        label, state = self.virtual.calling, None
-        seconds = time.monotonic() - self.recorder.began
-        line, code = line_of(_innermost(interrupt))
-        if label is not None and line and seconds >= _ENDLESS:
-            state = self.named(label.node)
-        if label is None or state is None or state.process.program is not None:
-            return ""
-        self.end_process(state.process, Ending(INTERRUPTED, state.name, label.name, self.now()))
-        return (
-            f"{state.name} had been in {label.name} for {seconds:.0f} s.\n"
-            f"    line {line}: {code}\n"
-            "  What it means: While a callback runs, nothing else can. The node has ended; the "
-            "other nodes go on.\n"
-            "  What to try:   Mend the callback so that it returns, then "
-            f"{self.console.add_again}"
-        )
-
-    def deadlocked(self, waits: Sequence[Wait]) -> None:
-        """Record that callbacks wait for ever, at the line where the first of them waits."""
-        for wait in waits:
-            wait.reported = True
-        call, thread, error = waits[0].call, waits[0].thread, deadlock(waits)
-        if call is not None:
-            frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
-            now, kind = self.now(), type(error).__name__
-            fault = Fault(now, call.node, call.name, kind, str(error), *line_of(frame))
-            self.add_fault(fault)
-            if waits[0].needs is not None:  # else what a test does next may end the wait
-                self.console.raised(fault, error)
-            self.console.deadlock(fault, error)
-
-    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
-        """Record an exception that left the work on a goal; rclpy aborts the goal and logs it."""
-        fault = fault_of(error, self.now(), state.name, name)
-        self.add_fault(fault)
-        self.console.raised(fault, error)
-        self.console.work_fault(fault)
 
     def sent(self, kind: str, name: str, origin: NodeState | None = None) -> None:
         """Note that a node sent something to the `kind` entities called `name`."""
@@ -589,28 +296,6 @@ class SessionCore:
         """Return how many goals were sent here; 0 in a domain with other processes in it."""
         return next(self._goals) if self.external_messages is None else 0
 
-    # What is printed.
-
-    def show_news(self) -> None:
-        """Print the log lines and faults that have not been printed yet."""
-        logs = self.recorder.logs
-        while self._shown_logs < len(logs):
-            self._shown_logs += 1
-            self.console.log(logs[self._shown_logs - 1])
-        self.show_faults()
-
-    def show_faults(self) -> None:
-        """Print the faults that have not been printed yet."""
-        faults = self.recorder.faults
-        while self._shown_faults < len(faults):
-            self._shown_faults += 1
-            self.console.fault(faults[self._shown_faults - 1])
-
-    def add_fault(self, fault: Fault) -> None:
-        """Record a fault that the caller prints in its own way."""
-        self.recorder.faults.append(fault)
-        self._shown_faults += 1
-
     # Running.
 
     @contextmanager
@@ -632,7 +317,7 @@ class SessionCore:
 
     def _code(self) -> Iterator[object]:
         """Yield classes and functions in whose modules `from time import sleep` may stand."""
-        for state in self.states():
+        for state in self.nodes.states():
             yield type(state.node)
             for entry in state.entries:
                 yield getattr(entry.entity, "callback", None)
@@ -675,7 +360,7 @@ class SessionCore:
             return
         live = self.live
         live.finish()
-        state, callback = self.state_of(live.current), self.recorder.newest_callback()
+        state, callback = self.nodes.state_of(live.current), self.recorder.newest_callback()
         if live.is_stuck and state is not None and callback is not None:
             note(
                 f"{callback.name} of {state.name} has not returned, and cannot be interrupted "
@@ -691,7 +376,7 @@ class SessionCore:
     def _change_executor(self, live: LiveExecutor | None) -> None:
         is_virtual = live is None
         self.virtual.is_live = not is_virtual
-        for state in self.states():
+        for state in self.nodes.states():
             # Not `get_clock`, which a learner's class may have replaced.
             clocks = {id(clock): clock for clock in (state.node._clock, *_timer_clocks(state))}
             for clock in clocks.values():
@@ -699,7 +384,7 @@ class SessionCore:
             if state.spinning and live is not None:
                 state.node.executor = live
             elif state.spinning:
-                self._spin_in_process(state)
+                self.lives.spin_in_process(state)
             for timer in (one.entity for one in state.entries if one.kind.endswith("timer")):
                 # Each timer begins a new period: its deadline is a reading of the other clock.
                 with suppress(InvalidHandle):  # destroyed by its node
@@ -721,14 +406,14 @@ class SessionCore:
         self.go_virtual()
         self._last_graph = self.graph()
         self.virtual.close()
-        for process in self._processes:
+        for process in self.nodes.processes:
             for executor in (process.executor, process.global_executor):
                 if executor is not None:
-                    _end_coroutines(executor)
+                    end_coroutines(executor)
                     with suppress(Exception):  # a program may have destroyed it
                         executor.shutdown(timeout_sec=0)
-        for state in reversed(self.states()):
-            self.destroy(state)
+        for state in reversed(self.nodes.states()):
+            self.lives.destroy(state)
         for entity in list(self.action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
@@ -736,129 +421,6 @@ class SessionCore:
             self.graph_observer.destroy_node()
         self.context.end()
         close_host(self)
-
-    # Watching what nodes make.
-
-    def _watch(self, state: NodeState, kind: str, entity: Entity) -> None:
-        if kind == "timer":
-            name, source = "", f"{entity.timer_period_ns / NANOSECONDS:g} s"
-        else:
-            name = source = entity.topic_name if kind == "subscription" else entity.service_name
-        called = "answer" if kind == "client" else callback_name(entity.callback)
-        label = self.recorder.label(state.name, kind, called, source)
-        entry = Entry(self.next_number(), state, kind, entity, name, label, TAKERS.get(kind))
-        state.entries.append(entry)
-        self._entries[entity] = entry
-        self._keys[entry.key] = entry
-        if kind == "timer":
-            self._watch_timer(entry)
-        elif kind == "subscription":
-            self._watch_subscription(entry)
-        elif kind == "client":
-            self._watch_client(entry)
-        elif kind == "service":
-            self._watch_service(entry)
-        self.virtual.watch(entry)
-
-    def _watch_client(self, entry: Entry) -> None:
-        """Replace the methods of a client that send or wait."""
-        client = entry.entity
-        send, wait_for_service = client.call_async, client.wait_for_service
-
-        def call_async(request: Message) -> Future:
-            future = send(request)
-            self.sent("service", entry.name, entry.state)
-            return future
-
-        call_and_wait = client.call
-
-        def call(request: Message, timeout_sec: float | None = None) -> Message:
-            self._check_call(entry)
-            if self.live is None and self.virtual.in_callback:
-                with self.waiting_for(f"a response from {entry.name}", client):
-                    return call_and_wait(request, timeout_sec)
-            return self._wait_for_answer(client, call_async(request), timeout_sec)
-
-        def wait(timeout_sec: float | None = None) -> bool:
-            # In the code of a node rclpy's own way sleeps; in a cell the nodes have to run.
-            if self.live is not None or self.virtual.in_callback:
-                began = self.virtual.now
-                is_ready = bool(wait_for_service(timeout_sec))
-                if not is_ready and self.live is None and self.virtual.now == began:
-                    self.virtual.polled()  # ROS was shut down, so that it does not wait any more
-                return is_ready
-            return self.wait_until(client.service_is_ready, timeout_sec)
-
-        client.call_async, client.call, client.wait_for_service = call_async, call, wait
-
-    def _watch_service(self, entry: Entry) -> None:
-        """Let clients hear of an answer, whoever sends it."""
-        service, answered = entry.entity, self.virtual.sender("client", entry.name, entry.state)
-        send = service.send_response
-
-        def send_response(response: Message, header: Any) -> None:  # noqa: ANN401 - filled in C
-            send(response, header)
-            if self.live is None:
-                answered()
-
-        service.send_response = send_response
-
-    def _watch_timer(self, entry: Entry) -> None:
-        timer = entry.entity
-        if isinstance(timer.clock, VirtualClock):
-            timer.reset = partial(self._reset_timer, entry, timer.reset)
-            return
-        entry.kind = "wall timer"
-        note(
-            f"a timer of {entry.state.name} has its own clock, which counts real time, so it "
-            "fires only while the session is live."
-        )
-
-    def _reset_timer(self, entry: Entry, original: Callable[[], None]) -> None:
-        entry.entity.clock.move()
-        original()
-        if self.live is None:
-            self.virtual.timer_reset(entry)
-
-    def _watch_subscription(self, entry: Entry) -> None:
-        entry.born = self.recorder.mark()
-        if self.live is None:
-            taps = (tap for state in self.states() for tap in state.taps)
-            wait_for_stored([tap for tap in taps if tap.topic == entry.name], entry)
-        if self.counts_limits:
-            self.limits.subscription_made(entry)
-        if self.external_messages is not None:
-            self.external_messages.watch_subscription(entry.entity)
-
-    def _tap_publisher(self, state: NodeState, publisher: Publisher) -> None:
-        topic, memory = publisher.topic_name, Memory(publisher.msg_type)
-        if topic in INFRASTRUCTURE_TOPICS:
-            quiet = partial(self.sent, "subscription", topic, state)
-            state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
-            return
-        number = self.recorder.channel(topic, state.name, memory).number
-        recorder, virtual, thread = self.recorder, self.virtual, get_ident()
-        happened = virtual.sender("subscription", topic, state)
-
-        def record(copy: Any) -> None:  # noqa: ANN401 - what `Memory.take` makes
-            recorder.add_sample(number, virtual.now, copy)
-            happened()
-
-        def published(copy: Any) -> None:  # noqa: ANN401 - the same
-            if self.live is not None:
-                with recorder.lock:
-                    recorder.add_sample(number, self.now(), copy)
-            elif get_ident() == thread:
-                record(copy)
-            else:  # a thread of the node's own
-                virtual.elsewhere.append(partial(record, copy))
-
-        tap = PublisherTap(publisher, memory, published)
-        state.taps.append(tap)
-        if self.counts_limits:
-            self.limits.publisher_made(state, publisher, tap)
-        if self.external_messages is not None:
-            self.external_messages.watch_publisher(publisher)
 
     # What the loggers ask and tell; see `logs.LogHost`.
 
@@ -883,79 +445,15 @@ class SessionCore:
         self.recorder.logs.append(LogRecord(self.now(), level, name, text, function, line))
         self.sent("subscription", "/rosout")
         if self.live is None:
-            self.show_news()
+            self.reports.show_news()
 
     # Calls that wait.
-
-    def _check_call(self, entry: Entry) -> None:
-        if self.live is not None:
-            self.refuse_in_callback("client.call")
-        if not entry.state.spinning and entry.state.process.program is None:
-            raise SessionError(
-                f"{entry.state.name} calls {entry.name} before the node itself runs.",
-                "A node that is still being created, was not added, or is paused cannot receive "
-                "a response. On a robot, the call would wait forever.",
-                "Add the node first, with `ros.add(...)`, and call the service after that, or in "
-                "a timer's callback with `call_async`.",
-            )
-
-    def _wait_for_answer(
-        self, client: Client, future: Future, timeout_sec: float | None
-    ) -> Message:
-        """Do in a cell what `client.call` does after its request (rclpy, `client.py`)."""
-        self.wait("client.call", future.done, timeout_sec)
-        if not future.done():
-            client.remove_pending_request(future)
-            if timeout_sec is not None and RAISES_WHEN_CALL_TIMES_OUT:
-                raise TimeoutError
-            if timeout_sec is None:
-                raise SessionError(
-                    f"No node has responded to the call of {client.service_name}.",
-                    "Either no node of this session offers that service, or its callback does "
-                    "not return. On a robot, the call would wait forever.",
-                    "Add the node that offers the service first, and compare the two service "
-                    "names.",
-                )
-        return future.result()
-
-    def _sleep(self, entry: Entry, original: Callable[[], None]) -> None:
-        if self.live is not None:
-            self.refuse_in_callback("rate.sleep")
-            original()
-        elif self.virtual.in_callback:
-            with self.waiting_for("a rate", entry.entity):
-                original()
-        else:
-            calls = entry.calls
-            self.wait("rate.sleep", lambda: entry.calls > calls, None)
 
     def _is_in_current_process(self, entity: Entity) -> bool:
         call = self.virtual.current
         states = call.process.states if call is not None else []
         return any(one.entity is entity for state in states
                    for one in (*state.entries, *state.actions))  # fmt: skip
-
-
-# Checks of what a caller names.
-
-
-def state_of(core: SessionCore, node: Node) -> NodeState:
-    """Return what is known of a node; raise a NodeClassError if it is not of this session."""
-    state = core.state_of(node)
-    if state is None:
-        raise foreign_node(node, core.name_of(node))
-    return state
-
-
-def find(core: SessionCore, node: Node | str) -> NodeState:
-    """Return a node, given itself or by name; raise a SessionError if there is no such node."""
-    if isinstance(node, Node):
-        return state_of(core, node)
-    name = "/" + str(node).lstrip("/")
-    state = core.named(name)
-    if state is None:
-        raise no_such_node(name, [other.name for other in core.states()])
-    return state
 
 
 def full_topic(call: str, topic: object) -> str:
@@ -983,29 +481,3 @@ def full_topic(call: str, topic: object) -> str:
 def _timer_clocks(state: NodeState) -> Iterator[VirtualClock]:
     timers = (entry.entity for entry in state.entries if entry.kind == "timer")
     return (timer.clock for timer in timers if isinstance(timer.clock, VirtualClock))
-
-
-def _end_coroutines(executor: Executor, state: NodeState | None = None) -> None:
-    """Close the coroutines that wait, of one node or all: their `finally` blocks run now."""
-    for task in tasks_of(executor):
-        call: Call | None = task.__dict__.get("_rosbeat_call")
-        if state is not None and (call is None or call.state is not state):
-            continue
-        if iscoroutine(task._handler) and not task.executing():
-            with suppress(Exception):  # what a `finally` block of a learner's raises
-                task._handler.close()
-
-
-def _innermost(interrupt: KeyboardInterrupt) -> FrameType | None:
-    """Return the learner's frame that an interrupt of `run` has hit; None if it was none of theirs.
-
-    It may have been raised anew by code that asked for it (`Interrupts`).
-    """
-    error: BaseException | None = interrupt
-    while error is not None:
-        frames = [frame for frame, _ in walk_tb(error.__traceback__)]
-        found = next(filter(is_learners, reversed(frames)), None)
-        if found is not None:
-            return found
-        error = error.__context__
-    return None

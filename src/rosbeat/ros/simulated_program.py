@@ -42,7 +42,7 @@ from rosbeat.ros.recording import invalid_context
 from rosbeat.ros.waits import Call
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session_core import SessionCore
+    from rosbeat.ros.ports import AllPorts
 
 _OWN = str(Path(__file__).parents[1])
 _KNOWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
@@ -72,7 +72,7 @@ class SimulatedProgram:
         SessionError: If `target` is neither a file nor a function.
     """
 
-    def __init__(self, core: SessionCore, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
+    def __init__(self, core: AllPorts, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
         self._target = _checked(target)
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None
@@ -322,7 +322,7 @@ class SimulatedProgram:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
             self.failure = fault_of(error, self.core.now(), self.name, "main"), error
-            self.core.add_fault(self.failure[0])
+            self.core.reports.add_fault(self.failure[0])
         if self.stderr:
             print(self.stderr, end="", file=sys.stderr)
         self._end(code)
@@ -336,7 +336,7 @@ class SimulatedProgram:
             if call is not virtual.current:
                 virtual.break_off(call)
         for state in list(self._process.states):
-            self.core.destroy(state)
+            self.core.lives.destroy(state)
         for context in list(self.contexts):
             _shut_down(context)
         self.core.console.program_ended(self)

@@ -12,10 +12,9 @@ import threading
 from collections.abc import Callable
 from functools import wraps
 from types import FrameType
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import rclpy
-from rclpy import experimental
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
@@ -26,27 +25,19 @@ from rosbeat.ros.errors import note
 from rosbeat.ros.recording import core_of
 from rosbeat.ros.waits import board_here
 
-#: A `SessionCore`, or None. Its own type would ask everywhere whether a node is of a session.
-_Core: TypeAlias = Any
+if TYPE_CHECKING:
+    from rosbeat.ros.ports import Spinner
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
 
 
-def install() -> None:
-    """Put this module's functions in the places of rclpy's; a second call does nothing."""
-    if hasattr(rclpy.spin, "__wrapped__"):
-        return
-    rclpy.spin = _spin(rclpy.spin)
-    rclpy.spin_once = _spin_once(rclpy.spin_once)
-    rclpy.spin_until_future_complete = _spin_until(rclpy.spin_until_future_complete)
-    experimental.EventsExecutor = _refuse_in_session(experimental.EventsExecutor)
+def spin_for_pages(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `rclpy.spin`: for a node of a session, a cell runs all nodes live."""
 
-
-def _spin(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(node: Node, executor: Executor | None = None) -> None:
-        core: _Core = core_of(node)
+        core: Spinner | None = core_of(node)
         if core is None:
             _spin_until_interrupt(node, executor or _executor_for(node))
             return
@@ -62,12 +53,14 @@ def _spin(original: Callable[..., None]) -> Callable[..., None]:
     return spin
 
 
-def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
+def spin_once_for_pages(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `rclpy.spin_once`, which a cell need not call for a node of a session."""
+
     @wraps(original)
     def spin_once(
         node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
     ) -> None:
-        core: _Core = core_of(node)
+        core: Spinner | None = core_of(node)
         if core is None:
             wait = PULSE if timeout_sec is None else timeout_sec
             original(node, executor=executor, timeout_sec=wait)
@@ -83,7 +76,9 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
     return spin_once
 
 
-def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
+def spin_until_for_pages(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `rclpy.spin_until_future_complete`: in a cell, the session runs its nodes."""
+
     @wraps(original)
     def spin_until_future_complete(
         node: Node,
@@ -91,7 +86,7 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
         executor: Executor | None = None,
         timeout_sec: float | None = None,
     ) -> None:
-        core: _Core = core_of(node)
+        core: Spinner | None = core_of(node)
         if core is None or _is_simulated(core):
             began = core.virtual.now if core is not None else 0
             original(node, future, executor, timeout_sec)
@@ -99,7 +94,7 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
                 core.virtual.give_way()
             return
         core.refuse_in_callback("rclpy.spin_until_future_complete")
-        core.spin_node(core.state_of(node))
+        core.lives.spin_node(core.nodes.member(node))
         if core.live is not None:
             core.live.wait_for(future, timeout_sec)
         else:
@@ -108,7 +103,9 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
     return spin_until_future_complete
 
 
-def _refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
+def refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
+    """Wrap the `EventsExecutor`, which virtual time does not reach."""
+
     @wraps(original, updated=())
     def make(*args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - rclpy's own
         if board_here() is not None:
@@ -123,13 +120,14 @@ def _refuse_in_session(original: Callable[..., Any]) -> Callable[..., Any]:
     return make
 
 
-def _is_simulated(core: _Core) -> bool:
+def _is_simulated(core: Spinner) -> bool:
     return core.live is None and bool(core.virtual.in_callback)
 
 
-def _may_spin(core: _Core) -> bool:
+def _may_spin(core: Spinner) -> bool:
     """Return whether the caller is the `main` of a program, or a thread of its own."""
     call = core.virtual.current
+    assert call is not None  # code of a node is running
     return call.process.program is not None or call.ident > 0
 
 
@@ -155,11 +153,11 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
         executor.remove_node(node)
 
 
-def _spin_in_session(core: _Core, node: Node) -> None:
+def _spin_in_session(core: Spinner, node: Node) -> None:
     """Run the session's nodes against the wall clock until Interrupt."""
     core.refuse_in_callback("rclpy.spin")
-    state = core.state_of(node)
-    core.spin_node(state)
+    state = core.nodes.member(node)
+    core.lives.spin_node(state)
     was_live = core.live is not None
     if not was_live:
         core.go_live()
@@ -169,7 +167,7 @@ def _spin_in_session(core: _Core, node: Node) -> None:
         with Interrupts() as interrupts:  # printing may swallow the exception
             while core.live is not None and not state.ended:
                 interrupts.raise_if_pressed()
-                core.show_news()
+                core.reports.show_news()
                 pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, f"{state.name} has stopped spinning; the session is still open.")
@@ -178,7 +176,7 @@ def _spin_in_session(core: _Core, node: Node) -> None:
     finally:
         if not was_live:
             core.go_virtual()
-        core.show_news()
+        core.reports.show_news()
 
 
 def _refuse_in_constructor(node: Node) -> None:

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import rclpy
 import rclpy.executors
-from rclpy import wait_for_message as message_waiting
 from rclpy.event_handler import EventHandler
-from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -29,8 +28,8 @@ from rosbeat.ros.recording import core_of
 from rosbeat.ros.waits import Call, board_here
 
 if TYPE_CHECKING:
+    from rosbeat.ros.ports import EngineHost
     from rosbeat.ros.recording import Entity
-    from rosbeat.ros.session_core import SessionCore
 
 _WORK = ("subscription", "timer", "client", "service")
 #: A guard condition may only say that the wait set has to be made anew.
@@ -169,7 +168,7 @@ class VirtualWaitSet(rclpy_implementation.WaitSet):
                 getattr(self, f"add_{kind}")(handle)
 
 
-class _Implementation:
+class Implementation:
     """Stand in for rclpy's C++ part where wait sets are made."""
 
     WaitSet = VirtualWaitSet
@@ -185,7 +184,7 @@ class ProcessExecutor(SingleThreadedExecutor):
     nodes and tasks.
     """
 
-    def __init__(self, core: SessionCore, process: Process) -> None:
+    def __init__(self, core: EngineHost, process: Process) -> None:
         self._core, self._process = core, process
         super().__init__(context=core.context)
 
@@ -204,7 +203,9 @@ class ProcessExecutor(SingleThreadedExecutor):
 # The hooks.
 
 
-def _watch_handlers(original: Callable[..., Task]) -> Callable[..., Task]:
+def watch_handlers(original: Callable[..., Task]) -> Callable[..., Task]:
+    """Wrap `Executor._make_handler`, so that each callback is recorded as it begins."""
+
     @wraps(original)
     def make_handler(
         executor: Executor, entity: Entity, node: Node, take: Callable[..., Any]
@@ -220,7 +221,9 @@ def _watch_handlers(original: Callable[..., Task]) -> Callable[..., Task]:
     return make_handler
 
 
-def _watch_tasks(original: Callable[..., Task]) -> Callable[..., Task]:
+def watch_tasks(original: Callable[..., Task]) -> Callable[..., Task]:
+    """Wrap `Executor.create_task`, so that a task belongs to the process that has made it."""
+
     @wraps(original)
     def create_task(executor: Executor, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401 - rclpy's own
         task = original(executor, callback, *args, **kwargs)
@@ -234,7 +237,9 @@ def _watch_tasks(original: Callable[..., Task]) -> Callable[..., Task]:
     return create_task
 
 
-def _watch_steps(original: Callable[..., None]) -> Callable[..., None]:
+def watch_steps(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `Task.__call__`, so that the code of a task is known while it runs."""
+
     @wraps(original)
     def step(task: Task) -> None:
         engine = _engine_here()
@@ -259,7 +264,9 @@ def _watch_steps(original: Callable[..., None]) -> Callable[..., None]:
     return step
 
 
-def _give_way(original: Callable[..., Any]) -> Callable[..., Any]:
+def give_way(original: Callable[..., Any]) -> Callable[..., Any]:
+    """Wrap `Executor.wait_for_ready_callbacks`, so that processes take turns."""
+
     @wraps(original)
     def wait_for_ready_callbacks(executor: Executor, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - rclpy's own
         engine = _engine_here()
@@ -271,14 +278,16 @@ def _give_way(original: Callable[..., Any]) -> Callable[..., Any]:
     return wait_for_ready_callbacks
 
 
-def _in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
+def in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
+    """Wrap `Executor.get_nodes`, so that nodes keep the order in which they were made."""
+
     @wraps(original)
     def get_nodes(executor: Executor) -> list[Node]:
         nodes = original(executor)
-        core = getattr(executor.context, "session_core", None)
+        core: EngineHost | None = getattr(executor.context, "session_core", None)
         if core is None or core.live is not None:
             return nodes
-        states = [(core.state_of(node), node) for node in nodes]
+        states = [(core.nodes.state_of(node), node) for node in nodes]
         known = [state for state, _ in states if state and not (state.paused or state.ended)]
         known.sort(key=lambda state: state.number)
         return [
@@ -289,18 +298,22 @@ def _in_order(original: Callable[..., list[Node]]) -> Callable[..., list[Node]]:
     return get_nodes
 
 
-def _watch_trigger(original: Callable[..., None]) -> Callable[..., None]:
+def watch_trigger(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `GuardCondition.trigger`, so that it wakes who waits for it."""
+
     @wraps(original)
     def trigger(guard: GuardCondition) -> None:
         original(guard)
-        core = getattr(guard._context, "session_core", None)
+        core: EngineHost | None = getattr(guard._context, "session_core", None)
         if core is not None:
             core.virtual.notify(id(guard.handle))
 
     return trigger
 
 
-def _watch_timers(original: Callable[..., None]) -> Callable[..., None]:
+def watch_timers(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `Timer.__init__`, so that the engine finds the timer of a handle."""
+
     @wraps(original)
     def init(timer: Timer, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - rclpy's own
         original(timer, *args, **kwargs)
@@ -311,7 +324,9 @@ def _watch_timers(original: Callable[..., None]) -> Callable[..., None]:
     return init
 
 
-def _watch_nodes(original: Callable[..., Any], spins: bool) -> Callable[..., Any]:
+def watch_nodes(original: Callable[..., Any], spins: bool) -> Callable[..., Any]:
+    """Wrap `Executor.add_node` or `remove_node`, so that the session hears who spins a node."""
+
     @wraps(original)
     def change(executor: Executor, node: Node) -> Any:  # noqa: ANN401 - whether it was added, or None
         result = original(executor, node)
@@ -323,7 +338,9 @@ def _watch_nodes(original: Callable[..., Any], spins: bool) -> Callable[..., Any
     return change
 
 
-def _choose_threads(original: Callable[..., None]) -> Callable[..., None]:
+def choose_threads(original: Callable[..., None]) -> Callable[..., None]:
+    """Wrap `MultiThreadedExecutor.__init__`: the machine does not choose the threads."""
+
     @wraps(original)
     def init(executor: Executor, num_threads: int | None = None, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         engine = _engine_here()
@@ -334,7 +351,9 @@ def _choose_threads(original: Callable[..., None]) -> Callable[..., None]:
     return init
 
 
-def _global_executor(original: Callable[[], Executor]) -> Callable[[], Executor]:
+def own_global_executor(original: Callable[[], Executor]) -> Callable[[], Executor]:
+    """Wrap `rclpy.get_global_executor`: each process has one of its own."""
+
     @wraps(original)
     def get_global_executor() -> Executor:
         engine = _engine_here()
@@ -352,26 +371,6 @@ def _global_executor(original: Callable[[], Executor]) -> Callable[[], Executor]
         return process.global_executor
 
     return get_global_executor
-
-
-def _install() -> None:
-    implementation = _Implementation()
-    rclpy.executors._rclpy = implementation
-    message_waiting._rclpy = implementation
-    Executor._make_handler = _watch_handlers(Executor._make_handler)
-    Executor.create_task = _watch_tasks(Executor.create_task)
-    Executor.wait_for_ready_callbacks = _give_way(Executor.wait_for_ready_callbacks)
-    Executor.get_nodes = _in_order(Executor.get_nodes)
-    Executor.add_node = _watch_nodes(Executor.add_node, True)
-    Executor.remove_node = _watch_nodes(Executor.remove_node, False)
-    MultiThreadedExecutor.__init__ = _choose_threads(MultiThreadedExecutor.__init__)
-    Task.__call__ = _watch_steps(Task.__call__)
-    GuardCondition.trigger = _watch_trigger(GuardCondition.trigger)
-    Timer.__init__ = _watch_timers(Timer.__init__)
-    rclpy.get_global_executor = _global_executor(rclpy.get_global_executor)
-
-
-_install()  # at import, so exactly once in a process
 
 
 def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's

@@ -13,9 +13,11 @@ from __future__ import annotations
 import contextvars
 import logging
 from _thread import get_ident
+from abc import ABC, abstractmethod
 from asyncio import events
 from collections import deque
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -146,8 +148,8 @@ def board_here() -> Switchboard | None:
     return board if board is not None and board.in_callback else None
 
 
-class Switchboard:
-    """Suspend and resume the greenlets of one session.
+class Switchboard(ABC):
+    """Suspend and resume the greenlets of one session; what comes next, the engine adds.
 
     Attributes:
         now: Virtual time in nanoseconds since the session began.
@@ -334,43 +336,47 @@ class Switchboard:
         self._looking.clear()
         self._woken.clear()
 
-    # What the engine adds.
+    # What the engine has to add.
 
+    @abstractmethod
     def thread_label(self, creator: Call, name: str) -> CallbackLabel:
         """Return the label of a thread that code of a node starts."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _drive(self, *_: object) -> None:
         """Run what comes next, for ever; at the end of a run, switch to who has called it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _block_main(self, wait: Wait) -> None:
         """Run the others until then; the greenlet that waits for the run cannot be suspended."""
-        raise NotImplementedError
 
-    def _check_that_it_can_end(self, wait: Wait) -> None:
+    @abstractmethod
+    def _running(self) -> AbstractContextManager[None]:
+        """Prepare the thread for running code of nodes."""
+
+    @abstractmethod
+    def _is_interrupted(self) -> bool:
+        """Return whether somebody has asked for an end of what is running."""
+
+    # What it may add.
+
+    def _check_that_it_can_end(self, wait: Wait) -> None:  # noqa: B027 - nothing, unless it is added
         """Report a wait that never ends."""
 
-    def _call_begins(self, call: Call) -> None:
+    def _call_begins(self, call: Call) -> None:  # noqa: B027 - the same
         """Note that a greenlet begins."""
 
-    def _call_ends(self, call: Call) -> None:
+    def _call_ends(self, call: Call) -> None:  # noqa: B027 - the same
         """Note that a greenlet ends."""
 
-    def _call_suspended(self, call: Call) -> None:
+    def _call_suspended(self, call: Call) -> None:  # noqa: B027 - the same
         """Note that a call begins to wait."""
 
-    def _call_resumed(self, call: Call, wait: Wait) -> None:
+    def _call_resumed(self, call: Call, wait: Wait) -> None:  # noqa: B027 - the same
         """Note that a call goes on."""
 
-    def _call_forgotten(self, call: Call) -> None:
+    def _call_forgotten(self, call: Call) -> None:  # noqa: B027 - the same
         """Note that a call has ended."""
-
-    def _is_interrupted(self) -> bool:
-        return False
-
-    def _running(self) -> Any:  # noqa: ANN401 - a context manager
-        raise NotImplementedError
 
     # How it works.
 
