@@ -12,7 +12,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from io import StringIO
 from pathlib import Path
@@ -41,14 +41,19 @@ from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
 from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.release import Released, catches_up, release
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.results import summary, write_results
 from rosbeat.grading.review import review
-from rosbeat.grading.roster import read_roster, with_roster
+from rosbeat.grading.roster import (
+    read_roster,
+    remarks_without_roster,
+    with_details,
+    with_roster,
+)
 from rosbeat.grading.run import Observe, Plan, Tell, grade
 from rosbeat.grading.submissions import (
     Collection,
     HandedIn,
-    Remark,
     Submission,
     collect,
     require_apart,
@@ -178,6 +183,7 @@ def _with_dates(
     deadline = read_due(due) if due else None
     rule = read_late_rule(late) if late else None
     if roster is None:
+        found = replace(found, remarks=(*found.remarks, *remarks_without_roster(found)))
         return mark_late(found, lambda _: deadline, rule)
     everybody, due_of = with_roster(found, read_roster(roster, deadline), deadline)
     return mark_late(everybody, due_of, rule)
@@ -303,7 +309,7 @@ def run_grade(options: argparse.Namespace) -> int:
             print(line, file=sys.stderr)
     excuses = options.missing == "empty"
     plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages), excuses)
-    judged = _judged(found, plan, options)
+    judged = with_details(_judged(found, plan, options), found)
     gradebook = apply_manual(judged, manual)
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)

@@ -13,8 +13,8 @@ from pathlib import Path
 
 from rosbeat.grading.files import Row, csv_text, number, printable, read_table, write_whole
 from rosbeat.grading.marks import DIGITS, HELD, LOOKED_AT, Gradebook, Graded, Mark
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.roster import Lookup, UnusableError
-from rosbeat.grading.submissions import Remark
 
 FILE = "manual.csv"
 COLUMNS = ("learner", "exercise", "points", "comment")

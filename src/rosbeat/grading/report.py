@@ -18,6 +18,7 @@ from rosbeat.exercises.exercise import FAILED
 from rosbeat.grading.feedback import FOLDER, feedback_files
 from rosbeat.grading.files import number
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.platforms import own_path
 from rosbeat.grading.rendering import (
     STATUSES,
     Segment,
@@ -26,7 +27,6 @@ from rosbeat.grading.rendering import (
     name,
     render,
 )
-from rosbeat.grading.submissions import own_path
 from rosbeat.viz.text_format import count
 
 #: Exercises that are named with a mistake; the table has all of them.

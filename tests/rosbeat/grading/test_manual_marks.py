@@ -12,7 +12,7 @@ from rosbeat.grading.manual_marks import (
     write_template,
 )
 from rosbeat.grading.marks import Gradebook, Graded
-from rosbeat.grading.submissions import Remark
+from rosbeat.grading.remarks import Remark
 
 HEAD = "learner,exercise,points,comment\n"
 

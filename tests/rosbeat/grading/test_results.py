@@ -11,6 +11,7 @@ from jsonschema import Draft202012Validator
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.results import (
     FORMAT,
     LEFT_OUT,
@@ -18,7 +19,6 @@ from rosbeat.grading.results import (
     summary,
     to_results,
 )
-from rosbeat.grading.submissions import Remark
 from rosbeat.records import Part
 from rosbeat.records_json import from_json
 
