@@ -110,6 +110,26 @@ def test_a_home_in_which_nobody_opened_the_course_is_no_learners(handed_in, page
     assert (remark.path, remark.text) == ("admin", "Nobody has opened the course in this home.")
 
 
+def without_notes(files):
+    """The same after the learner has reset the progress, as docs/exercises.md says."""
+    return {name: text for name, text in files.items() if "/.rosbeat/" not in name}
+
+
+@pytest.mark.parametrize("everybody", [False, True])
+def test_whoever_resets_the_progress_stays_in_the_class(handed_in, pages, everybody):
+    ana = without_notes(home("ana")) if everybody else home("ana")
+    found = collect(handed_in({**ana, **without_notes(home("ben")), "admin/notes.txt": ""}), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"]}
+    assert only(found, "ben").remarks == ()
+    assert [remark.path for remark in found.remarks] == ["admin"]
+
+
+def test_a_folder_of_the_course_among_what_was_handed_in_makes_no_homes(handed_in, pages):
+    files = {**inside("ana/my_course/"), **inside("ben/"), **inside("cy/pages/")}
+    found = collect(handed_in(files), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"], "cy": ["03", "04"]}
+
+
 @pytest.mark.parametrize("place", ["my_course/03_write.ipynb", "my_course", "my_course/.rosbeat"])
 def test_no_link_leads_out_of_a_home(handed_in, pages, place):
     source = handed_in({**home("ana"), **home("eve")})
