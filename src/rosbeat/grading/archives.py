@@ -173,7 +173,7 @@ def _files_of_folder(root: Path) -> Iterator[File]:
     homes = []
     with suppress(OSError), os.scandir(root) as found:  # what cannot be read is said below
         homes = [Path(one.path) for one in found if one.is_dir(follow_symlinks=False)]
-    if _are_homes(homes):
+    if _are_homes(root, homes):
         for home in homes:
             yield from _files_of_home(home)
         return
@@ -216,8 +216,8 @@ def _files_of_home(home: Path) -> Iterator[File]:
         yield File((home.name, ""), problem=EMPTY_FOLDER)
 
 
-def _are_homes(folders: Sequence[Path]) -> bool:
-    """Return whether folders are the homes of a hub, and not what learners handed in.
+def _are_homes(root: Path, folders: Sequence[Path]) -> bool:
+    """Return whether these folders are the homes of a hub, and not what learners handed in.
 
     They are if the course has made its notes in any of them. Learners who have reset their progress
     have none, and these may be all; then whoever lacks the course's folder has no notebook either.
@@ -226,15 +226,12 @@ def _are_homes(folders: Sequence[Path]) -> bool:
     if any((home / _LEARNERS_FOLDER / _NOTES).is_dir() for home in opened):
         return True
     others = [home for home in folders if _course_folder(home) == _NO_COURSE]
-    return bool(opened) and not any(_has_notebook(home) for home in others)
-
-
-def _has_notebook(folder: Path) -> bool:
-    """Return whether there is a notebook, or what may have one in it, in a folder or one deeper."""
+    names: list[Path] = []
     with suppress(OSError):
-        names = (*folder.glob("*"), *folder.glob("*/*"))
-        return any(name.suffix.lower() in (".ipynb", ".zip") for name in names)
-    return False
+        names += root.glob("*.*")
+        for home in others:
+            names += (*home.glob("*.*"), *home.glob("*/*.*"))
+    return bool(opened) and not any(name.suffix.lower() in (".ipynb", ".zip") for name in names)
 
 
 def _course_folder(home: Path) -> str | None:

@@ -70,29 +70,28 @@ def _as_folder(file: File) -> tuple[str, ...]:
 
 
 def _wrappers(paths: _Paths, platforms: Sequence[Platform]) -> int:
-    """Return how many folders around everything do not tell learners apart."""
-    level = 0
-    while _is_wrapped([path[level:] for path in paths], platforms):
-        # What is beside the folder is not in it, and says nothing about what is.
-        paths = [path for path in paths if len(path) > level + 1]
-        level += 1
-    return level
+    """Return how many folders around everything do not tell learners apart.
 
-
-def _is_wrapped(paths: _Paths, platforms: Sequence[Platform]) -> bool:
-    """Return whether the one folder that there is has the learners in it, and is none itself.
-
-    Beside the folder, and beside the learners in it, may be files that are no page. A page directly
-    in the folder is its owner's, unless there are several folders with pages as well.
+    A page directly in such a folder is its owner's, so the folder is a learner's; unless there are
+    several folders with pages in the innermost one: then the page is beside the learners.
     """
-    folders = {path[0] for path in paths if len(path) > 1}
-    if len(folders) != 1 or _is_named((*folders,), platforms):
-        return False
-    inside = [path[1:] for path in paths if len(path) > 1]
-    within = {path[0] for path in inside if len(path) > 1}
-    tried = {path[0] for path in inside if len(path) > 1 and _may_be_page(path[-1])}
-    loose = [path[-1] for path in (*paths, *inside) if len(path) == 1]
-    return bool(within) and (len(tried) > 1 or not any(map(_may_be_page, loose)))
+    strict, level = None, 0
+    while True:
+        within = [path[level:] for path in paths if len(path) > level]
+        folders = {path[0] for path in within if len(path) > 1}
+        if len(folders) != 1 or _is_named((*folders,), platforms):
+            break
+        inside = [path[1:] for path in within if len(path) > 1]
+        named = {path for path in inside if _is_named(path[:1], platforms)}
+        if not named and not any(len(path) > 1 for path in inside):
+            break
+        loose = [path for path in (*within, *inside) if len(path) == 1 and path not in named]
+        if strict is None and any(_may_be_page(path[-1]) for path in loose):
+            strict = level
+        level += 1
+    tried = {path[0] for path in within if len(path) > 1 and _may_be_page(path[-1])}
+    tried |= {path[0] for path in within if _is_named(path[:1], platforms)}
+    return level if strict is None or len(tried) > 1 else strict
 
 
 def _may_be_page(name: str) -> bool:

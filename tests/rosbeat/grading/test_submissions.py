@@ -124,10 +124,12 @@ def test_whoever_resets_the_progress_stays_in_the_class(handed_in, pages, everyb
     assert [remark.path for remark in found.remarks] == ["admin"]
 
 
-def test_a_folder_of_the_course_among_what_was_handed_in_makes_no_homes(handed_in, pages):
-    files = {**inside("ana/my_course/"), **inside("ben/"), **inside("cy/pages/")}
-    found = collect(handed_in(files), pages)
-    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"], "cy": ["03", "04"]}
+@pytest.mark.parametrize(
+    "others", [inside("ben/"), inside("ben/pages/"), {"ben.zip": zipped(BOTH)}], ids=range(3)
+)
+def test_a_folder_of_the_course_among_what_was_handed_in_makes_no_homes(handed_in, pages, others):
+    found = collect(handed_in({**inside("ana/my_course/"), **others}), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"]}
 
 
 @pytest.mark.parametrize("place", ["my_course/03_write.ipynb", "my_course", "my_course/.rosbeat"])

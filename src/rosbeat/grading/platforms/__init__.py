@@ -6,6 +6,7 @@ download, matching a roster, and the files to upload follow from it.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
@@ -37,8 +38,22 @@ def platform_named(name: str) -> Platform:
 
 
 def platforms_of(files: Sequence[File]) -> tuple[Platform, ...]:
-    """Return all platforms as they are for one download."""
-    return tuple(platform.opened(files) for platform in PLATFORMS)
+    """Return all platforms as they are for one download, those that have named most files first.
+
+    A learner may call a file as another platform would, so that one name has two meanings. What is
+    in a folder that a platform has named is not counted, as its owner has named that.
+    """
+    opened = [platform.opened(files) for platform in PLATFORMS]
+    named_by: dict[str, list[str]] = {}
+    counts: Counter[str] = Counter()
+    for file in files:
+        for part in file.parts:
+            if part not in named_by:
+                named_by[part] = [one.name for one in opened if one.owners((part,))]
+            if named_by[part]:
+                counts.update(named_by[part])
+                break
+    return tuple(sorted(opened, key=lambda platform: -counts[platform.name]))
 
 
 def platform_of_roster(header: Collection[str]) -> Platform | None:
@@ -59,12 +74,15 @@ def owners_of(
         deepest: In how many parts a name that a platform made is looked for; by default in all.
             What is in a learner's own folder has names that the learner chose.
     """
-    for platform in PLATFORMS if platforms is None else platforms:
-        for place in range(len(parts[:deepest])):
-            owners = platform.owners(parts[place:])
-            if owners:
+    known = PLATFORMS if platforms is None else platforms
+    named = [platform for platform in known if not platform.has_free_names]
+    # The outermost name counts: what is in a folder, its owner has named.
+    for place in range(len(parts[:deepest])):
+        for platform in named:
+            if owners := platform.owners(parts[place:]):
                 return owners
-    return ()
+    free = (platform.owners(parts) for platform in known if parts and platform.has_free_names)
+    return next(filter(None, free), ())
 
 
 def own_path(path: str) -> str:

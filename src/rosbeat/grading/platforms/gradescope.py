@@ -59,18 +59,16 @@ class Gradescope(Platform):
         """Return Gradescope with what the metadata of this export says about folders.
 
         A learner may hand in a file of that name. So those in the outermost folders count, and only
-        if they are beside or above all that may be a page.
+        if all that was handed in is in these folders. What is beside or above them is nobody's.
         """
         found = [file for file in files if file.parts[-1] == _METADATA]
         depth = min((len(file.parts) for file in found), default=0)
         outermost = [file for file in found if len(file.parts) == depth]
         places = {file.parts[:-1] for file in outermost}
-        tried = (
-            file.parts[: depth - 1]
-            for file in files
-            if file.is_zip or (len(file.parts) > 1 and file.parts[-1].lower().endswith(NOTEBOOKS))
-        )
-        if not places.issuperset(tried):
+        above = {place[:level] for place in places for level in range(len(place))}
+        tried = (file for file in files if file.parts[-1].lower().endswith((*NOTEBOOKS, ".zip")))
+        elsewhere = (file for file in tried if file.parts[: depth - 1] not in places)
+        if any(file.is_zip or file.parts[:-1] not in above for file in elsewhere):
             return Gradescope({})
         return Gradescope({name: who for file in outermost for name, who in _read(file)})
 
