@@ -17,7 +17,7 @@ class Remark:
         about: What it is: `late`, `duplicate`, `renamed`, `empty`, `wrong-course`, `unreadable`
             or `left-out`; or `manual`, a line of `manual.csv`; or
             `roster`, a line of the roster or somebody who is not on it; or `reaches-inside`, an
-            answer that reaches for what observes it.
+            answer that reaches for what observes it; or `team`, a page that a team shares.
         path: The file, as it was named, made safe to print.
         text: One sentence about what was found and what was done.
     """

@@ -15,7 +15,7 @@ from typing import Generic, TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.grading import platforms
-from rosbeat.grading.deadlines import read_extension
+from rosbeat.grading.deadlines import mark_late, read_due, read_extension, read_late_rule
 from rosbeat.grading.files import Row, cell, printable, read_table
 from rosbeat.grading.marks import Gradebook, Graded
 from rosbeat.grading.platforms import platform_named, platform_of_roster
@@ -215,6 +215,29 @@ def _person(row: Row, platform: Platform | None, due: float | None, path: Path) 
 # With what was handed in.
 
 
+def with_dates(
+    found: Collection, roster: Path | None, due: str | None, late: str | None = None
+) -> Collection:
+    """Add the learners of a roster, and note what is late.
+
+    Args:
+        found: What was handed in.
+        roster: The file that says who is in the class, if there is one.
+        due: The deadline, as it was typed.
+        late: What is taken off a late page, as it was typed.
+
+    Raises:
+        GradingError: If the roster or one of the texts cannot be used.
+    """
+    deadline = read_due(due) if due else None
+    rule = read_late_rule(late) if late else None
+    if roster is None:
+        everybody = replace(found, remarks=(*found.remarks, *_remarks_without_roster(found)))
+        return mark_late(everybody, lambda _: deadline, rule)
+    everybody, due_of = with_roster(found, read_roster(roster, deadline), deadline)
+    return mark_late(everybody, due_of, rule)
+
+
 def with_roster(
     found: Collection, roster: Roster, due: float | None
 ) -> tuple[Collection, Callable[[Submission], float | None]]:
@@ -249,7 +272,7 @@ def with_roster(
     return shared, lambda one: own.get(one.learner, due)
 
 
-def remarks_without_roster(found: Collection) -> Iterator[Remark]:
+def _remarks_without_roster(found: Collection) -> Iterator[Remark]:
     """Yield what cannot be done because no roster was given."""
     for system in sorted({one.system for one in found.submissions}):
         platform = platform_named(system)
