@@ -22,7 +22,7 @@ from rosbeat.grading.platforms import platform_named, platform_of_roster
 from rosbeat.grading.platforms.base import Platform
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.submissions import Collection, Submission
-from rosbeat.grading.teams import share_in_teams
+from rosbeat.grading.teams import has_name_of, share_in_teams
 
 # Finding a learner.
 
@@ -113,9 +113,11 @@ def _orders(name: str) -> set[str]:
 _IDS = ("id", "learner", "id number", "username")
 _NAMES = ("full name", "name", "student")
 _FIRST, _LAST = ("first name",), ("last name", "surname")
-_OWN, _TEAM = ("due", "extension"), ("team",)
+_OWN = ("due", "extension")
+#: An export of a platform may have groups that hand in one by one, so there only `team` counts.
+_TEAM, _GROUP = ("team",), ("group",)
 _LIST = ("id",)
-_KNOWN = {*_IDS, *_NAMES, *_FIRST, *_LAST, *_OWN, *_TEAM}
+_KNOWN = {*_IDS, *_NAMES, *_FIRST, *_LAST, *_OWN, *_TEAM, *_GROUP}
 
 
 @dataclass(frozen=True)
@@ -209,7 +211,8 @@ def _person(row: Row, platform: Platform | None, due: float | None, path: Path) 
     except GradingError as error:
         what = f"{printable(str(path), 1000)}, line {row.line}: {error.what}"
         raise GradingError(what, error.means, error.to_try) from error
-    return Person(row.line, id_, name, own_due, first(_TEAM), row.cells)
+    team = first(_TEAM if platform else (*_TEAM, *_GROUP))
+    return Person(row.line, id_, name, own_due, team, row.cells)
 
 
 # With what was handed in.
@@ -322,52 +325,48 @@ class _Matching:
 
     def match_names(self) -> None:
         """Match the lines that are left by name; nobody of them is left out of the class."""
-        has_ids = bool(self._lines)
-        taken = set(self._lines)
-        candidates = {
-            person.line: [] if self._is_decided(person) else self._by_name(person, taken, has_ids)
-            for person in self._left
-        }
+        known = dict(self._lines)
+        candidates = {person.line: self._by_name(person, known) for person in self._left}
         claims: dict[str, set[str]] = defaultdict(set)
         for person in self._left:
             for one in candidates[person.line]:
                 claims[one.learner].add(person.id)
         for person in self._left:
             several = candidates[person.line]
-            names = printable(person.name or person.id, 60)
             self._mentioned |= {one.learner for one in several}
-            if len(several) > 1:
-                said = f"{names!r} are {len(several)} learners who handed in; write the id."
-                self._remark(person, said)
-            elif several and len(claims[several[0].learner]) > 1:
-                many = len(claims[several[0].learner])
-                said = f"{names!r} are {many} lines of the roster, and one of them handed in: "
-                self._remark(person, f"{said}write the id by which {several[0].called} is known.")
-                self._take(person, person.id or person.name, names)
-            elif several:
+            many = max((len(claims[one.learner]) for one in several), default=1)
+            name = printable(person.name or person.id, 60)
+            if len(several) == many == 1:
                 self._take(person, several[0].learner, several[0].called)
-            else:
-                self._take(person, person.id or person.name, names)
+            elif len(several) > 1:
+                said = f"{name!r} are {len(several)} learners who handed in; write the id."
+                self._remark(person, said)
+            elif several:
+                said = f"{name!r} are {many} lines of the roster and 1 learner who handed in; "
+                self._remark(person, f"{said}write the id.")
+            if not several or many > len(several):
+                self._take(person, person.id or person.name, name)
 
-    def _is_decided(self, person: Person) -> bool:
-        """Return whether an id that nobody has handed in with belongs to nobody who has."""
-        return (
-            bool(person.id)
-            and self._systems == {self._roster.system}
-            and (platform_named(self._roster.system).roster_has_ids)
-        )
+    def _by_name(self, person: Person, known: Mapping[str, int]) -> list[Submission]:
+        """Return who may be meant by a name, of those whom no id has decided.
 
-    def _by_name(self, person: Person, taken: set[str], has_ids: bool) -> list[Submission]:
-        """Return who may be meant by a name.
-
-        If ids of the roster are those of the platform, whoever has another id is another person.
+        Args:
+            person: The line.
+            known: The lines of those whose ids are on the roster. If there are any, the roster has
+                the ids of the platform, and whoever has another id is another person.
         """
+        platform = platform_named(self._roster.system)
+        if person.id and platform.roster_has_ids and self._systems == {self._roster.system}:
+            return []
+        named = self._lookup.by_id(person.id) or self._lookup.by_name(person.name or person.id)
+        if not person.id and named and all(one.learner in known for one in named):
+            said = f"{printable(person.name, 60)!r} is also the name of {named[0].called}, whom "
+            self._remark(person, f"{said}line {known[named[0].learner]} names; write the id.")
+        has_other_id = bool(known and person.id and person.name)
         return [
             one
-            for one in self._lookup.by_id(person.id)
-            or self._lookup.by_name(person.name or person.id)
-            if one.learner not in taken
-            and not (has_ids and person.id and person.name and one.name != one.learner)
+            for one in named
+            if one.learner not in known and not (has_other_id and one.name != one.learner)
         ]
 
     def _take(self, person: Person, learner: str, called: str) -> None:
@@ -390,7 +389,9 @@ class _Matching:
     def remarks(self) -> Iterator[Remark]:
         """Yield what is odd about lines, and who is on none."""
         yield from self._remarks
+        teams = {person.team for person in self._roster.people if person.team}
         for one in self._found.submissions:
-            if one.learner not in self._lines and one.learner not in self._mentioned:
+            is_team = any(has_name_of(team, one) for team in teams)
+            if one.learner not in {*self._lines, *self._mentioned} and not is_team:
                 said = f"{printable(one.called, 60)} handed in and is not on the roster."
                 yield Remark("roster", self._roster.file, said)

@@ -1,7 +1,7 @@
 """Share what a team handed in: each of its members gets it, and a mark of their own for it.
 
-A team is what a column `team` of the roster says, or several people whom a platform names for one
-submission. Marks, deadlines, late days and points by hand stay each learner's own.
+A team is what a column `team` or `group` of the roster says, or several people whom a platform
+names for one submission. Marks, deadlines, late days and points by hand stay each learner's own.
 """
 
 from __future__ import annotations
@@ -30,15 +30,19 @@ def share_in_teams(found: Collection, teams: Mapping[str, Sequence[str]]) -> Col
     for team, several in teams.items():
         own = [by_id[learner] for learner in several]
         of_team = [
-            one
-            for one in found.submissions
-            if one.learner not in members
-            and _plain(team) in (_plain(one.learner), _plain(one.name))
+            submission
+            for submission in found.submissions
+            if submission.learner not in members and has_name_of(team, submission)
         ]
         by_id |= {one.learner: _with_all(one, team, [*own, *of_team]) for one in own}
         for one in of_team:
             by_id.pop(one.learner, None)
     return replace(found, submissions=tuple(by_id.values()))
+
+
+def has_name_of(team: str, submission: Submission) -> bool:
+    """Return whether a submission is under the name of a team, such as a folder."""
+    return _plain(team) in (_plain(submission.learner), _plain(submission.name))
 
 
 def _plain(text: str) -> str:
