@@ -15,7 +15,6 @@ from downloads import DOWNLOADS, DUE, LATE, METADATA, ON_TIME, ROSTERS
 from grading_files import PAGE_03, PAGE_04, zipped
 from rosbeat.grading import platforms
 from rosbeat.grading.platforms.base import Owner, Platform
-from rosbeat.grading.remarks import Remark
 from rosbeat.grading.submissions import collect
 from small_course import PAGES
 
@@ -371,6 +370,46 @@ def test_a_table_that_needs_a_roster_says_so(collected, graded):
     assert not (graded(answered(files)) / "brightspace.csv").exists()
 
 
+ON = "Nov 25, 2026 314 PM"
+#: Names that reach outside, markup and formulas, where each platform has the learner's name.
+HOSTILE_DOWNLOADS = {
+    "brightspace": [f"../../1-9 - Ana - {ON}/", f"2-9 - ..\\..\\x - {ON}/", f"4-9 - =1+1 - {ON}/",
+                    f"3-9 - <script>x</script> - {ON}/"],
+    "blackboard": [f"HW_{name}_attempt_2026-99-25-15-14-00_"
+                   for name in ("../../x", "=1+1", "<script>x", "\u202eabc", "@x")],
+    "gradescope": ["e/submission_1/../../x/", "e/submission_2/", "e/submission_3/"],
+}  # fmt: skip
+HOSTILE_METADATA = "".join(
+    f"submission_{number}:\n  :submitters:\n  - :name: '{name}'\n    :sid: '{name}'\n"
+    for number, name in enumerate(("<script>x</script>", "=1+1", "../../a"), 1)
+)
+
+
+@pytest.mark.parametrize("name", HOSTILE_DOWNLOADS)
+def test_hostile_names_leave_the_folder_of_results_alone(name, graded, tmp_path):
+    files = {f"{place}03_write.ipynb": PAGE_03 for place in HOSTILE_DOWNLOADS[name]}
+    if name == "gradescope":
+        files["e/submission_metadata.yml"] = HOSTILE_METADATA
+    head = "OrgDefinedId,Username,Last Name,First Name,End-of-Line Indicator"
+    (tmp_path / "roster.csv").write_text(f"{head}\n=1+1,@x,=1+1,,#\n")
+    roster = ("--roster", tmp_path / "roster.csv") if name == "brightspace" else ()
+    before = {*tmp_path.rglob("*"), *tmp_path.parent.glob("*")}
+    out = graded(answered(files), *roster)
+    made = {*tmp_path.rglob("*"), *tmp_path.parent.glob("*")} - before
+    assert {path for path in made if out not in path.parents} == {out, tmp_path / "download.zip"}
+    for path in out.glob("feedback/*"):
+        assert re.fullmatch(r"[a-z0-9_-]+\.html", path.name)
+    for path in [*out.glob("feedback/*"), out / "class.html"]:
+        assert "<script>x" not in path.read_text("utf-8")
+    tables, zips = uploads(out)
+    cells = [cell for table in (*tables.values(), rows(out / "grades.csv"))
+             for row in table for cell in row.values()]  # fmt: skip
+    assert not [cell for cell in cells if cell.startswith(("=", "+", "@", "-"))]
+    for file in (file for files in zips.values() for file in files):
+        assert ".." not in file.split("/")
+        assert "\\" not in file
+
+
 # A seventh platform: one class, and one line in the table of them.
 
 
@@ -458,5 +497,3 @@ def test_a_submission_of_a_group_is_each_member_s(collected):
 def test_the_files_of_both_kinds_can_be_collected_at_once(handed_in, pages):
     found = collect(handed_in(DOWNLOADS["moodle"][0] | DOWNLOADS["blackboard"][0]), pages)
     assert {one.system for one in found.submissions} == {"moodle", "blackboard"}
-    assert isinstance(found.remarks, tuple)
-    assert not any(isinstance(one, Remark) for one in found.remarks)
