@@ -66,8 +66,8 @@ class Lookup(Generic[Learner]):
         if not learners:
             raise UnusableError(f"There is no learner {printable(text, 40)!r}.", _LOOK_UP)
         if len(learners) > 1:
-            said = f"{printable(text, 40)!r} are {len(learners)} learners; write the id."
-            raise UnusableError(said, _LOOK_UP)
+            problem = f"{printable(text, 40)!r} are {len(learners)} learners; write the id."
+            raise UnusableError(problem, _LOOK_UP)
         return learners[0]
 
     def by_id(self, text: str) -> list[Learner]:
@@ -82,11 +82,11 @@ class Lookup(Generic[Learner]):
         return [learner for learner, forms in self._forms if forms[place] & wanted - {""}]
 
 
-def _forms(one: Submission | Graded) -> tuple[set[str], ...]:
+def _forms(submission: Submission | Graded) -> tuple[set[str], ...]:
     """Return what a learner may be called in a table, the most certain first."""
-    aliases = platform_named(one.system).aliases(one.learner, one.details)
-    ids = {_plain(one.learner), *map(_plain, aliases)}
-    return {one.learner}, ids, {_plain(one.name)}, {"".join(_words(one.name))}
+    aliases = platform_named(submission.system).aliases(submission.learner, submission.details)
+    ids = {_plain(submission.learner), *map(_plain, aliases)}
+    return {submission.learner}, ids, {_plain(submission.name)}, {"".join(_words(submission.name))}
 
 
 def _plain(text: str) -> str:
@@ -104,7 +104,7 @@ def _orders(name: str) -> set[str]:
     """Return a name's letters with the first or the last word at the other end, too."""
     words = _words(name)
     orders = (words, words[-1:] + words[:-1], words[1:] + words[:1])
-    return {"".join(one) for one in orders}
+    return {"".join(order) for order in orders}
 
 
 # The roster.
@@ -219,12 +219,12 @@ def _person(row: Row, platform: Platform | None, due: float | None, path: Path) 
 
 
 def with_dates(
-    found: Collection, roster: Path | None, due: str | None, late: str | None = None
+    collected: Collection, roster: Path | None, due: str | None, late: str | None = None
 ) -> Collection:
     """Add the learners of a roster, and note what is late.
 
     Args:
-        found: What was handed in.
+        collected: What was handed in.
         roster: The file that says who is in the class, if there is one.
         due: The deadline, as it was typed.
         late: What is taken off a late page, as it was typed.
@@ -235,19 +235,21 @@ def with_dates(
     deadline = read_due(due) if due else None
     rule = read_late_rule(late) if late else None
     if roster is None:
-        everybody = replace(found, remarks=(*found.remarks, *_remarks_without_roster(found)))
+        everybody = replace(
+            collected, remarks=(*collected.remarks, *_remarks_without_roster(collected))
+        )
         return mark_late(everybody, lambda _: deadline, rule)
-    everybody, due_of = with_roster(found, read_roster(roster, deadline), deadline)
+    everybody, due_of = with_roster(collected, read_roster(roster, deadline), deadline)
     return mark_late(everybody, due_of, rule)
 
 
 def with_roster(
-    found: Collection, roster: Roster, due: float | None
+    collected: Collection, roster: Roster, due: float | None
 ) -> tuple[Collection, Callable[[Submission], float | None]]:
     """Add the learners of the class who handed in nothing, and share what teams handed in.
 
     Args:
-        found: What was handed in.
+        collected: What was handed in.
         roster: Who is in the class.
         due: The deadline of the class, in seconds since 1970.
 
@@ -256,12 +258,12 @@ def with_roster(
         `about="roster"` say which lines name several learners, or one a second time, and who
         handed in without being on the roster.
     """
-    matching = _Matching(found, roster)
+    matching = _Matching(collected, roster)
     matching.match_ids()
     matching.match_names()
     own: dict[str, float] = {}
     teams: dict[str, list[str]] = {}
-    learners = {one.learner: one for one in found.submissions}
+    learners = {submission.learner: submission for submission in collected.submissions}
     for person, learner in matching.learners:
         known = learners.get(learner) or matching.absent(person, learner)
         learners[learner] = replace(known, details={**known.details, **person.details})
@@ -269,27 +271,29 @@ def with_roster(
             own[learner] = person.due
         if person.team and learner not in teams.setdefault(person.team, []):
             teams[person.team].append(learner)
-    remarks = (*found.remarks, *matching.remarks())
-    everybody = sorted(learners.values(), key=lambda one: one.learner)
-    shared = share_in_teams(replace(found, submissions=tuple(everybody), remarks=remarks), teams)
-    return shared, lambda one: own.get(one.learner, due)
+    remarks = (*collected.remarks, *matching.remarks())
+    everybody = sorted(learners.values(), key=lambda submission: submission.learner)
+    shared = share_in_teams(
+        replace(collected, submissions=tuple(everybody), remarks=remarks), teams
+    )
+    return shared, lambda submission: own.get(submission.learner, due)
 
 
-def _remarks_without_roster(found: Collection) -> Iterator[Remark]:
+def _remarks_without_roster(collected: Collection) -> Iterator[Remark]:
     """Yield what cannot be done because no roster was given."""
-    for system in sorted({one.system for one in found.submissions}):
+    for system in sorted({submission.system for submission in collected.submissions}):
         platform = platform_named(system)
         if not platform.roster_has_ids:
-            said = (
+            problem = (
                 f"{platform.title} finds learners by an id that its downloads do not have, so "
                 f"{platform.name}.csv is not written. Give its export of the grades with --roster."
             )
-            yield Remark("roster", platform.title, said)
+            yield Remark("roster", platform.title, problem)
 
 
-def with_details(book: Gradebook, found: Collection) -> Gradebook:
+def with_details(book: Gradebook, collected: Collection) -> Gradebook:
     """Return a gradebook in which learners have what platform and roster say of them besides."""
-    details = {one.learner: one.details for one in found.submissions}
+    details = {submission.learner: submission.details for submission in collected.submissions}
     learners = (
         replace(graded, details=details.get(graded.learner, {})) for graded in book.learners
     )
@@ -303,10 +307,10 @@ class _Matching:
     that may be several learners, or several lines that may be one, decide nothing, and are told.
     """
 
-    def __init__(self, found: Collection, roster: Roster) -> None:
-        self._found, self._roster = found, roster
-        self._lookup = Lookup(found.submissions)
-        self._systems = {one.system for one in found.submissions}
+    def __init__(self, collected: Collection, roster: Roster) -> None:
+        self._collected, self._roster = collected, roster
+        self._lookup = Lookup(collected.submissions)
+        self._systems = {submission.system for submission in collected.submissions}
         self._lines: dict[str, int] = {}
         self._mentioned: set[str] = set()
         self._remarks: list[Remark] = []
@@ -329,21 +333,21 @@ class _Matching:
         candidates = {person.line: self._by_name(person, known) for person in self._left}
         claims: dict[str, set[str]] = defaultdict(set)
         for person in self._left:
-            for one in candidates[person.line]:
-                claims[one.learner].add(person.id)
+            for submission in candidates[person.line]:
+                claims[submission.learner].add(person.id)
         for person in self._left:
             several = candidates[person.line]
-            self._mentioned |= {one.learner for one in several}
-            many = max((len(claims[one.learner]) for one in several), default=1)
+            self._mentioned |= {submission.learner for submission in several}
+            many = max((len(claims[submission.learner]) for submission in several), default=1)
             name = printable(person.name or person.id, 60)
             if len(several) == many == 1:
                 self._take(person, several[0].learner, several[0].called)
             elif len(several) > 1:
-                said = f"{name!r} are {len(several)} learners who handed in; write the id."
-                self._remark(person, said)
+                problem = f"{name!r} are {len(several)} learners who handed in; write the id."
+                self._remark(person, problem)
             elif several:
-                said = f"{name!r} are {many} lines of the roster and 1 learner who handed in; "
-                self._remark(person, f"{said}write the id.")
+                problem = f"{name!r} are {many} lines of the roster and 1 learner who handed in; "
+                self._remark(person, f"{problem}write the id.")
             if not several or many > len(several):
                 self._take(person, person.id or person.name, name)
 
@@ -359,20 +363,21 @@ class _Matching:
         if person.id and platform.roster_has_ids and self._systems == {self._roster.system}:
             return []
         named = self._lookup.by_id(person.id) or self._lookup.by_name(person.name or person.id)
-        if not person.id and named and all(one.learner in known for one in named):
-            said = f"{printable(person.name, 60)!r} is also the name of {named[0].called}, whom "
-            self._remark(person, f"{said}line {known[named[0].learner]} names; write the id.")
+        if not person.id and named and all(submission.learner in known for submission in named):
+            problem = f"{printable(person.name, 60)!r} is also the name of {named[0].called}, whom "
+            self._remark(person, f"{problem}line {known[named[0].learner]} names; write the id.")
         has_other_id = bool(known and person.id and person.name)
         return [
-            one
-            for one in named
-            if one.learner not in known and not (has_other_id and one.name != one.learner)
+            submission
+            for submission in named
+            if submission.learner not in known
+            and not (has_other_id and submission.name != submission.learner)
         ]
 
     def _take(self, person: Person, learner: str, called: str) -> None:
         if learner in self._lines:
-            said = f"Line {self._lines[learner]} names {printable(called, 60)} already."
-            self._remark(person, said)
+            problem = f"Line {self._lines[learner]} names {printable(called, 60)} already."
+            self._remark(person, problem)
         self._lines.setdefault(learner, person.line)
         self.learners.append((person, learner))
 
@@ -390,8 +395,8 @@ class _Matching:
         """Yield what is odd about lines, and who is on none."""
         yield from self._remarks
         teams = {person.team for person in self._roster.people if person.team}
-        for one in self._found.submissions:
-            is_team = any(has_name_of(team, one) for team in teams)
-            if one.learner not in {*self._lines, *self._mentioned} and not is_team:
-                said = f"{printable(one.called, 60)} handed in and is not on the roster."
-                yield Remark("roster", self._roster.file, said)
+        for submission in self._collected.submissions:
+            is_team = any(has_name_of(team, submission) for team in teams)
+            if submission.learner not in {*self._lines, *self._mentioned} and not is_team:
+                problem = f"{printable(submission.called, 60)} handed in and is not on the roster."
+                yield Remark("roster", self._roster.file, problem)

@@ -14,30 +14,32 @@ from rosbeat.grading.remarks import Remark
 from rosbeat.grading.submissions import Collection, HandedIn, Submission
 
 
-def share_in_teams(found: Collection, teams: Mapping[str, Sequence[str]]) -> Collection:
+def share_in_teams(collected: Collection, teams: Mapping[str, Sequence[str]]) -> Collection:
     """Give each member of a team what any of them handed in.
 
     Args:
-        found: The class.
+        collected: The class.
         teams: The ids of the members of each team. A submission under the name of the team itself,
             such as a folder, belongs to the team, and is no learner's.
 
     Returns:
         The class. Of a page that several members handed in, the newest that can be read counts.
     """
-    by_id = {one.learner: one for one in found.submissions}
+    by_id = {submission.learner: submission for submission in collected.submissions}
     members = {learner for several in teams.values() for learner in several}
     for team, several in teams.items():
         own = [by_id[learner] for learner in several]
         of_team = [
             submission
-            for submission in found.submissions
+            for submission in collected.submissions
             if submission.learner not in members and has_name_of(team, submission)
         ]
-        by_id |= {one.learner: _with_all(one, team, [*own, *of_team]) for one in own}
-        for one in of_team:
-            by_id.pop(one.learner, None)
-    return replace(found, submissions=tuple(by_id.values()))
+        by_id |= {
+            submission.learner: _with_all(submission, team, [*own, *of_team]) for submission in own
+        }
+        for submission in of_team:
+            by_id.pop(submission.learner, None)
+    return replace(collected, submissions=tuple(by_id.values()))
 
 
 def has_name_of(team: str, submission: Submission) -> bool:
@@ -53,15 +55,17 @@ def _with_all(member: Submission, team: str, everybody: Sequence[Submission]) ->
     """Return a member's submission with every page of the team."""
     pages: list[HandedIn] = []
     remarks = list(member.remarks)
-    for lesson in sorted({page.page for one in everybody for page in one.pages}):
-        handed = [(one, page) for one in everybody for page in one.pages if page.page == lesson]
-        best = max((page for _, page in handed), key=_rank)
+    for lesson in sorted({page.page for submission in everybody for page in submission.pages}):
+        handed = (page for submission in everybody for page in submission.pages)
+        best = max((page for page in handed if page.page == lesson), key=_rank)
         pages.append(best)
         if best not in member.pages:
             who = printable(team, 60)
             text = f"It was handed in by the team {who}, and counts for all its members."
             remarks.append(Remark("team", best.path, text))
-    unread = tuple(dict.fromkeys(remark for one in everybody for remark in one.unread))
+    unread = tuple(
+        dict.fromkeys(remark for submission in everybody for remark in submission.unread)
+    )
     return replace(member, pages=tuple(pages), remarks=tuple(remarks), unread=unread)
 
 

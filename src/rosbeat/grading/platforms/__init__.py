@@ -49,7 +49,7 @@ def platforms_of(files: Sequence[File]) -> tuple[Platform, ...]:
     for file in files:
         for part in file.parts:
             if part not in named_by:
-                named_by[part] = [one.name for one in opened if one.owners((part,))]
+                named_by[part] = [platform.name for platform in opened if platform.owners((part,))]
             if named_by[part]:
                 counts.update(named_by[part])
                 break

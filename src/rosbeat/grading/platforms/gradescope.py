@@ -61,9 +61,9 @@ class Gradescope(Platform):
         A learner may hand in a file of that name. So those in the outermost folders count, and only
         if all that was handed in is in these folders. What is beside or above them is nobody's.
         """
-        found = [file for file in files if file.parts[-1] == _METADATA]
-        depth = min((len(file.parts) for file in found), default=0)
-        outermost = [file for file in found if len(file.parts) == depth]
+        metadata = [file for file in files if file.parts[-1] == _METADATA]
+        depth = min((len(file.parts) for file in metadata), default=0)
+        outermost = [file for file in metadata if len(file.parts) == depth]
         places = {file.parts[:-1] for file in outermost}
         above = {place[:level] for place in places for level in range(len(place))}
         tried = (file for file in files if file.parts[-1].lower().endswith((*NOTEBOOKS, ".zip")))
@@ -127,7 +127,7 @@ def _owners(people: Iterable[Mapping[Any, Any]], handed_in: float | None) -> Ite
     known: set[str] = set()
     for person in people:
         values = (person.get(key) for key in (":name", ":sid", ":email"))
-        name, sid, email = (one.strip() if isinstance(one, str) else "" for one in values)
+        name, sid, email = (value.strip() if isinstance(value, str) else "" for value in values)
         learner = sid or email or name
         if learner and learner not in known:
             known.add(learner)
