@@ -4,7 +4,7 @@ import random
 
 from rosbeat.exercises.registry import PAGES
 from rosbeat.grading.marks import Gradebook, Graded, Mark
-from rosbeat.grading.submissions import Remark
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.traces import trace_of
 from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, Part, QoS, Sample
 

@@ -170,7 +170,7 @@ def _share(options: argparse.Namespace) -> int:
 
 
 _DUE = 'the deadline: "2026-11-30 18:00", or 2026-11-30 for the end of that day'
-_ROSTER = "who is in the class: names or ids, one a line, or CSV of Moodle or Canvas"
+_ROSTER = "who is in the class: names or ids, one a line, or CSV of a learning platform"
 _POINTS = "a CSV file with exercise,points"
 
 
@@ -205,7 +205,7 @@ def _grade_arguments(parser: argparse.ArgumentParser) -> None:
     add("--roster", type=Path, metavar="FILE", help=_ROSTER)
     missing = "what who handed in nothing gets (zero)"
     add("--missing", choices=("zero", "empty"), default="zero", help=missing)
-    add("--assignment", default="rosbeat", metavar="TITLE", help="its title in Canvas")
+    add("--assignment", default="rosbeat", metavar="TITLE", help="its title on your platform")
     add("--json", action="store_true", help="print the summary as JSON, for programs")
     many = "answers at a time (default: one per processor)"
     add("--workers", type=_from(1), metavar="N", help=many)

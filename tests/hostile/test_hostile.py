@@ -16,9 +16,10 @@ from hostile.pages import ROOT
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.pool import Pool
+from rosbeat.grading.remarks import REACHES_INSIDE
 from rosbeat.grading.results import write_results
 from rosbeat.grading.run import Plan, grade
-from rosbeat.grading.submissions import REACHES_INSIDE, collect
+from rosbeat.grading.submissions import collect
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(600), pytest.mark.xdist_group("hostile")]
 PAGES = {

@@ -3,13 +3,15 @@
 `docs/architecture.md` follows one answer through the whole pipeline. `commands` contains the entry
 points of `rosbeat release`, `collect` and `grade`.
 
-- Input: `submissions` and `archives` (folders, zips), `notebook` (pages, submitted and the
-  course's), `roster`, `deadlines`, `files` (CSV, safe names, whole writes).
+- Input: `submissions` and `archives` (folders, zips), `downloads` (whose a file is), `notebook`
+  (pages, submitted and the course's), `roster`, `teams`, `deadlines`, `files` (CSV, safe names,
+  whole writes).
+- `platforms`: a module for each learning platform, with its downloads, rosters and uploads.
 - Running: `answers` and `jobs` (which code is run), `run` (a whole run), `pool` (of workers),
   `worker`, `sandbox`, `system_calls`, `observing`, `cluster`.
 - Judging: `judging`, `ledger` (judged answers, so that a run can resume).
 - Marks: `marks` (with what exercises are worth), `manual_marks` (points given by hand), `results`,
-  `csv_exports` (Moodle, Canvas), `groups`.
+  `csv_exports` (the table of all marks), `groups`, `lock` (one run at a time in a folder).
 - Reports: `report`, `feedback`, `traces`, `rendering` with `templates/`, and `review` (the page on
   which an instructor marks by eye).
 - For the class: `release` creates the folder that learners get. `class_folder` reads what learners

@@ -14,7 +14,7 @@ import os
 import re
 import stat
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import datetime
@@ -173,7 +173,7 @@ def _files_of_folder(root: Path) -> Iterator[File]:
     homes = []
     with suppress(OSError), os.scandir(root) as found:  # what cannot be read is said below
         homes = [Path(one.path) for one in found if one.is_dir(follow_symlinks=False)]
-    if any(_course_folder(home) is None for home in homes):
+    if _are_homes(root, homes):
         for home in homes:
             yield from _files_of_home(home)
         return
@@ -216,12 +216,32 @@ def _files_of_home(home: Path) -> Iterator[File]:
         yield File((home.name, ""), problem=EMPTY_FOLDER)
 
 
+def _are_homes(root: Path, folders: Sequence[Path]) -> bool:
+    """Return whether these folders are the homes of a hub, and not what learners handed in.
+
+    They are if the course has made its notes in any of them. Learners who have reset their progress
+    have none, and these may be all; then whoever lacks the course's folder has no notebook either.
+    """
+    opened = [home for home in folders if _course_folder(home) is None]
+    if any((home / _LEARNERS_FOLDER / _NOTES).is_dir() for home in opened):
+        return True
+    others = [home for home in folders if _course_folder(home) == _NO_COURSE]
+    names: list[Path] = []
+    with suppress(OSError):
+        names += root.glob("*.*")
+        for home in others:
+            names += (*home.glob("*.*"), *home.glob("*/*.*"))
+    return bool(opened) and not any(name.suffix.lower() in (".ipynb", ".zip") for name in names)
+
+
 def _course_folder(home: Path) -> str | None:
     """Return why the folder that the course makes in a home cannot be used; None if it can be."""
     for folder in (home / _LEARNERS_FOLDER, home / _LEARNERS_FOLDER / _NOTES):
         try:
             mode = folder.lstat().st_mode
         except FileNotFoundError:
+            if folder.name == _NOTES:
+                return None  # the progress was reset
             return _NO_COURSE
         except OSError as error:
             return _unopened(error)

@@ -30,25 +30,25 @@ from rich.table import Table
 from rich.text import Text
 
 from rosbeat.errors import CommandError, GradingError, RecordError, StoppedError
-from rosbeat.grading.deadlines import mark_late, read_due, read_late_rule
 from rosbeat.grading.files import printable, write_whole
 from rosbeat.grading.jobs import PageEvidence, PageJob
 from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version, seed_of
+from rosbeat.grading.lock import alone_in
 from rosbeat.grading.manual_marks import FILE as MANUAL
 from rosbeat.grading.manual_marks import apply_manual, read_manual
 from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
 from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.release import Released, catches_up, release
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.results import summary, write_results
 from rosbeat.grading.review import review
-from rosbeat.grading.roster import read_roster, with_roster
+from rosbeat.grading.roster import with_dates, with_details
 from rosbeat.grading.run import Observe, Plan, Tell, grade
 from rosbeat.grading.submissions import (
     Collection,
     HandedIn,
-    Remark,
     Submission,
     collect,
     require_apart,
@@ -164,23 +164,11 @@ def run_collect(options: argparse.Namespace) -> int:
     asked = choose_pages(pages, options.lessons)
     found = collect(options.submissions, pages)
     require_submissions(options.submissions, found)
-    found = _with_dates(found, options.roster, options.due)
+    found = with_dates(found, options.roster, options.due)
     if not options.lessons:
         asked = handed_in(found, pages)
     print(_as_json(found) if options.json else "\n".join(_as_text(found, asked)))
     return 0
-
-
-def _with_dates(
-    found: Collection, roster: Path | None, due: str | None, late: str | None = None
-) -> Collection:
-    """Add the learners of a roster, and note what is late."""
-    deadline = read_due(due) if due else None
-    rule = read_late_rule(late) if late else None
-    if roster is None:
-        return mark_late(found, lambda _: deadline, rule)
-    everybody, due_of = with_roster(found, read_roster(roster, deadline), deadline)
-    return mark_late(everybody, due_of, rule)
 
 
 def handed_in(found: Collection, pages: Iterable[CoursePage]) -> tuple[CoursePage, ...]:
@@ -291,20 +279,32 @@ def run_grade(options: argparse.Namespace) -> int:
     pages = choose_pages(every, options.lessons)
     typed = _deciding(options, pages)
     points = read_points(options.points) if options.points else Points()
-    manual = read_manual(options.out / MANUAL)
+    read_manual(options.out / MANUAL)  # what is refused, is refused before anything is judged
     # With all pages: what is another page must not be taken for one of those that count.
     found = collect(options.submissions, every)
     require_submissions(options.submissions, found)
-    found = _with_dates(found, options.roster, options.due, options.late)
+    found = with_dates(found, options.roster, options.due, options.late)
     pages = pages if options.lessons else handed_in(found, pages)
     pages = tuple(page for page in pages if page.wanted)
     for line in (changes(options.out, typed), _UNSAFE * options.unsafe_no_sandbox):
         if line:
             print(line, file=sys.stderr)
+    with alone_in(options.out, partial(print, file=sys.stderr, flush=True)):
+        return _grade_alone(options, found, pages, points, typed)
+
+
+def _grade_alone(
+    options: argparse.Namespace,
+    found: Collection,
+    pages: tuple[CoursePage, ...],
+    points: Points,
+    typed: Typed,
+) -> int:
+    """Judge a class, write all results and return the exit code, while nobody else does."""
     excuses = options.missing == "empty"
     plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages), excuses)
-    judged = _judged(found, plan, options)
-    gradebook = apply_manual(judged, manual)
+    judged = with_details(_judged(found, plan, options), found)
+    gradebook = apply_manual(judged, read_manual(options.out / MANUAL))
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)
     code = WAITS if _waiting(gradebook) else 0

@@ -10,7 +10,8 @@ from math import ceil, inf
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.files import printable
-from rosbeat.grading.submissions import Collection, HandedIn, Remark, Submission
+from rosbeat.grading.remarks import Remark
+from rosbeat.grading.submissions import Collection, HandedIn, Submission
 
 _DAY, _HOUR = 86_400.0, 3_600.0
 
@@ -121,9 +122,8 @@ def mark_late(
 ) -> Collection:
     """Note for each page whether it is late, and what share of its points is taken off.
 
-    Canvas dates every file of a download at the moment of the download (`get_output_stream` in
-    `content_zipper.rb`), and writes LATE into the names of those that are. So there the name
-    decides, and how late a page is nobody knows.
+    Where a platform dates every file at the moment of the download and marks those that are late,
+    its mark decides, and how late a page is nobody knows.
 
     Args:
         found: What a class handed in.
@@ -139,15 +139,12 @@ def mark_late(
 
 def _with_lateness(one: Submission, due: float | None, rule: LateRule | None) -> Submission:
     told: list[Remark] = []
-    pages = tuple(_page(one, page, due, rule, told) for page in one.pages)
+    pages = tuple(_page(page, due, rule, told) for page in one.pages)
     return replace(one, pages=pages, remarks=(*one.remarks, *told))
 
 
-def _page(
-    one: Submission, page: HandedIn, due: float | None, rule: LateRule | None, told: list[Remark]
-) -> HandedIn:
-    has_date = due is not None and one.system != "canvas"
-    late_by = page.modified - due if due is not None and has_date else 0.0
+def _page(page: HandedIn, due: float | None, rule: LateRule | None, told: list[Remark]) -> HandedIn:
+    late_by = page.modified - due if due is not None and page.is_dated else 0.0
     if not (page.late or late_by > 0):
         return page
     said = _lateness(page.modified, late_by) if late_by > 0 else "It is marked as late."

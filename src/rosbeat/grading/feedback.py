@@ -1,15 +1,8 @@
 """Write the learners' feedback: a page for each with all findings, and zip files to upload.
 
 A page shows a learner's own code with the relevant lines, and the answer's behaviour beside that of
-the published solution. Sources of the zip formats:
-
-- Moodle, "Upload multiple feedback files in a zip" (`mod/assign/feedback/file/importziplib.php`): a
-  file's name consists of the learner's full name, the number in the names of downloaded files,
-  `assignfeedback` and `file`, joined by underscores; the learner sees the rest.
-- Canvas, "Upload Submissions" (`infer_comment_context_from_filename` of
-  `app/models/abstract_assignment.rb`): a file's name is that of a downloaded file. Learners see the
-  name of the file that they submitted, whatever the content is. The feedback is therefore a
-  notebook, as their submission was.
+the published solution. How files in a zip are called, and which form of the feedback a platform
+takes, is in `platforms`.
 """
 
 from __future__ import annotations
@@ -17,6 +10,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from io import BytesIO
 from itertools import groupby
 from typing import Any
@@ -28,7 +22,19 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.outcome_display import RIGHT, WRONG
 from rosbeat.grading.files import file_name
-from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
+from rosbeat.grading.marks import (
+    HELD,
+    LOOKED_AT,
+    MISSING,
+    Gradebook,
+    Graded,
+    Mark,
+    Solution,
+    late_note,
+)
+from rosbeat.grading.platforms import own_path, platform_named
+from rosbeat.grading.platforms.base import Feedback
+from rosbeat.grading.remarks import REACHES_INSIDE
 from rosbeat.grading.rendering import (
     html,
     look_of,
@@ -42,7 +48,6 @@ from rosbeat.grading.rendering import (
     so_far,
     visible,
 )
-from rosbeat.grading.submissions import REACHES_INSIDE, own_path, owner_of
 from rosbeat.grading.traces import Picture, picture
 
 #: The folder of all such pages.
@@ -69,6 +74,7 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
         code_of=_code_to_show,
+        late_note=late_note,
         picture_of=lambda mark: _picture_to_show(mark, expected.get(mark.exercise, "")),
         FAILED=FAILED,
         HELD=HELD,
@@ -165,35 +171,24 @@ def _picture_to_show(mark: Mark, expected: str) -> Picture | None:
 
 #: The date of every entry, so that the same feedback gives the same bytes.
 _DATE = (1980, 1, 1, 0, 0, 0)
-#: What a name in Moodle's file names must not have.
-_NOT_IN_A_NAME = re.compile(r"[_/\\\x00-\x1f\x7f]+")
 
 
 class FeedbackZips:
-    """Fill the zips that Moodle and Canvas take, learner by learner."""
+    """Fill the zips that platforms take, learner by learner."""
 
     def __init__(self) -> None:
-        self._entries: dict[str, dict[str, str]] = {
-            "moodle_feedback.zip": {},
-            "canvas_feedback.zip": {},
-        }
+        self._entries: dict[str, dict[str, str]] = {}
 
     def add(self, graded: Graded, page: str) -> None:
-        """Add the feedback of one learner, if a system takes it."""
-        if graded.system == "moodle" and graded.learner.isdecimal():
-            called = _NOT_IN_A_NAME.sub(" ", graded.name).strip(" .~") or "learner"
-            name = f"{called}_{graded.learner}_assignfeedback_file_feedback.html"
-            self._entries["moodle_feedback.zip"][name] = page
-        if graded.system == "canvas":
-            for lesson, path in graded.files:
-                name = _canvas_name(path)
-                if name:
-                    made = feedback_notebook(graded, lesson)
-                    self._entries["canvas_feedback.zip"][name] = made
+        """Add the feedback of one learner, if the platform takes it."""
+        platform = platform_named(graded.system)
+        feedback = Feedback(graded, page, partial(feedback_notebook, graded))
+        for file, content in platform.feedback_files(feedback):
+            self._entries.setdefault(platform.name, {})[file] = content
 
-    def files(self) -> dict[str, bytes]:
-        """Return the content of each zip by its name; empty for a system of which nobody came."""
-        return {name: _zipped(entries) for name, entries in self._entries.items()}
+    def zip_for(self, platform: str) -> bytes:
+        """Return the content of the zip for a platform; empty if there is nothing to upload."""
+        return _zipped(self._entries.get(platform, {}))
 
 
 def _zipped(entries: Mapping[str, str]) -> bytes:
@@ -205,15 +200,6 @@ def _zipped(entries: Mapping[str, str]) -> bytes:
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, text.encode("utf-8", "backslashreplace"))
     return content.getvalue() if entries else b""
-
-
-def _canvas_name(path: str) -> str:
-    """Return the name that Canvas gave to a downloaded notebook; empty if it was another file."""
-    for part in path.split("/"):
-        owner = owner_of((part,))
-        if owner is not None and owner.system == "canvas":
-            return part if part.endswith(".ipynb") else ""
-    return ""
 
 
 def feedback_notebook(graded: Graded, page: str) -> str:
@@ -241,6 +227,8 @@ def _in_short(mark: Mark) -> Iterator[Markup]:
     reached = "" if mark.status == HELD else f", {points_of(mark.points, mark.out_of)}"
     look, head = look_of(mark.status), "<h2>{} {} {}: {}{}</h2>"
     yield html(head, look.sign, mark.exercise, mark.title, look.word, reached)
+    if mark.deduction:
+        yield paragraph(late_note(mark))
     if mark.status != LOOKED_AT:
         yield _block(mark.evidence or mark.cause)
     for part in mark.parts:

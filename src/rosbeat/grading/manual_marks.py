@@ -3,7 +3,7 @@
 `manual.csv` has the columns `learner,exercise,points,comment`, in any order and with others between
 them. Without points, the judge's points stay; without an exercise, the comment is about the whole
 submission. A file that a person has edited is never written to. A line that cannot be used is
-reported and does not affect other lines.
+reported, nothing of it is published, and it does not affect other lines.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from pathlib import Path
 
 from rosbeat.grading.files import Row, csv_text, number, printable, read_table, write_whole
 from rosbeat.grading.marks import DIGITS, HELD, LOOKED_AT, Gradebook, Graded, Mark
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.roster import Lookup, UnusableError
-from rosbeat.grading.submissions import Remark
 
 FILE = "manual.csv"
 COLUMNS = ("learner", "exercise", "points", "comment")
@@ -94,12 +94,13 @@ def apply_manual(gradebook: Gradebook, manual: Manual) -> Gradebook:
     for line in manual.lines:
         try:
             graded, mark = meant(line, lookup)
+            points = points_by_hand(line.points, mark) if line.points else None
         except UnusableError as error:
             said = f"{error} Nothing is taken from this line. {error.to_try}"
             remarks.append(_remark(line.number, said))
             continue
         place = graded.learner, mark.exercise if mark else ""
-        now = _read(line, mark, remarks)
+        now = _Given(points, line.comment)
         given[place] = _merged(given.get(place, _Given()), now, line, remarks)
     learners = [_with(one, given) for one in gradebook.learners]
     return replace(gradebook, learners=tuple(learners), remarks=(*gradebook.remarks, *remarks))
@@ -122,16 +123,6 @@ def meant(line: Line, lookup: Lookup[Graded]) -> tuple[Graded, Mark | None]:
         f"There is no exercise {printable(line.exercise, 40)!r} among those that are graded.",
         f"Write one of these, or leave it empty for a comment about the whole: {graded_are}.",
     )
-
-
-def _read(line: Line, mark: Mark | None, remarks: list[Remark]) -> _Given:
-    try:
-        points = points_by_hand(line.points, mark) if line.points else None
-    except UnusableError as error:
-        said = f"{error} The points stay as they were judged. {error.to_try}"
-        remarks.append(_remark(line.number, said))
-        points = None
-    return _Given(points, line.comment)
 
 
 def points_by_hand(text: str, mark: Mark | None) -> float:

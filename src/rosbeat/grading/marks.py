@@ -13,8 +13,8 @@ from pathlib import Path
 from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.registry import EXERCISES, PAGES
-from rosbeat.grading.files import printable, read_table
-from rosbeat.grading.submissions import Remark
+from rosbeat.grading.files import number, printable, read_table
+from rosbeat.grading.remarks import Remark
 from rosbeat.records import Outcome, Part
 
 #: The status of an exercise besides those of an outcome: its page was not handed in; it has no
@@ -73,6 +73,19 @@ class Mark:
     source: str = ""
     trace: str = ""
 
+    @property
+    def deduction(self) -> float:
+        """Return the points that were deducted because the page was late."""
+        is_deducted = self.late and not self.manual and self.judged > self.points
+        return round(self.judged - self.points, DIGITS) if is_deducted else 0.0
+
+
+def late_note(mark: Mark) -> str:
+    """Say in a sentence what a mark lost because its page was late; empty if it lost nothing."""
+    if not mark.deduction:
+        return ""
+    return f"Late: {number(mark.deduction)} of {number(mark.judged)} points were deducted."
+
 
 @dataclass(frozen=True)
 class Graded:
@@ -80,12 +93,14 @@ class Graded:
 
     Attributes:
         learner: What tells this learner from others.
-        system: Where the submission came from: `moodle`, `canvas` or `folder`.
+        system: The name of the platform that the submission came from, or `folder`.
         marks: One for each exercise that was graded for, in the order of the course.
         remarks: What is worth telling about the files.
         comment: What a person has written to the learner about the whole.
         excused: Whether there is no grade because nothing was handed in.
         files: Of each page that was handed in its name and its path; not in results.json.
+        details: What the platform and the roster say of the learner besides, by column; not in
+            results.json.
     """
 
     learner: str
@@ -96,6 +111,7 @@ class Graded:
     comment: str = ""
     excused: bool = False
     files: tuple[tuple[str, str], ...] = ()
+    details: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def called(self) -> str:
@@ -111,6 +127,11 @@ class Graded:
     def out_of(self) -> float:
         """Return the sum of the points that there are."""
         return round(sum(mark.out_of for mark in self.marks), 6)
+
+    @property
+    def deduction(self) -> float:
+        """Return the sum of the points that were deducted because pages were late."""
+        return round(sum(mark.deduction for mark in self.marks), DIGITS)
 
     @property
     def is_settled(self) -> bool:

@@ -18,6 +18,7 @@ from rosbeat.exercises.exercise import FAILED
 from rosbeat.grading.feedback import FOLDER, feedback_files
 from rosbeat.grading.files import number
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.platforms import own_path
 from rosbeat.grading.rendering import (
     STATUSES,
     Segment,
@@ -26,7 +27,6 @@ from rosbeat.grading.rendering import (
     name,
     render,
 )
-from rosbeat.grading.submissions import own_path
 from rosbeat.viz.text_format import count
 
 #: Exercises that are named with a mistake; the table has all of them.
@@ -45,6 +45,7 @@ _ABOUT = {
     "reaches-inside": "Pages that reach for what observes them; their marks stand",
     "manual": "Lines of manual.csv that need a look",
     "roster": "Lines of the roster that need a look",
+    "team": "Handed in by a team",
 }
 _Rows = list[tuple[str, ...]]
 
@@ -94,12 +95,19 @@ def _learners(book: Gradebook) -> _Rows:
         (
             html('<a href="{}/{}">{}</a>', FOLDER, files[one.learner], name(one.name)),
             name(one.learner),
-            "no grade" if one.excused else f"{number(one.points)}{'' if one.is_settled else ' ?'}",
+            _points(one),
             number(one.out_of),
             str(len(one.remarks) or ""),
         )
         for one in sorted(book.learners, key=lambda one: (one.name.casefold(), one.learner))
     ]
+
+
+def _points(graded: Graded) -> str:
+    if graded.excused:
+        return "no grade"
+    late = f" ({number(graded.deduction)} late)" if graded.deduction else ""
+    return f"{number(graded.points)}{late}{'' if graded.is_settled else ' ?'}"
 
 
 def _files(book: Gradebook) -> Iterator[tuple[str, tuple[str, ...], _Rows]]:
@@ -139,14 +147,16 @@ class MistakeTally:
         count: In how many answers it was found.
         learners: How many learners made it.
         places: The exercises in which it was found, with how often, most frequent first.
+        example: The exercise that the hint and the evidence are about.
         hint: The hint that was given for it most often.
-        evidence: What was observed most often.
+        evidence: What was observed most often in that exercise, where this hint was given.
     """
 
     mistake: str
     count: int
     learners: int
     places: tuple[tuple[str, int], ...]
+    example: str
     hint: str
     evidence: str
 
@@ -190,13 +200,18 @@ def tally_mistakes(book: Gradebook) -> tuple[MistakeTally, ...]:
 
 def _mistake(mistake: str, found: Sequence[tuple[str, Mark]]) -> MistakeTally:
     marks = [mark for _, mark in found]
+    hint = _first(_ranked(mark.hint for mark in marks if mark.hint))
+    hinted = [mark for mark in marks if mark.hint == hint]
+    example = _first(_ranked(mark.exercise for mark in hinted))
+    seen = (mark.evidence for mark in hinted if mark.exercise == example and mark.evidence)
     return MistakeTally(
         mistake,
         len(marks),
         len({learner for learner, _ in found}),
         tuple(_ranked(mark.exercise for mark in marks)),
-        _first(_ranked(mark.hint for mark in marks if mark.hint)),
-        _first(_ranked(mark.evidence for mark in marks if mark.evidence)),
+        example,
+        hint,
+        _first(_ranked(seen)),
     )
 
 

@@ -16,15 +16,16 @@ from typing import Any
 
 from rosbeat.errors import RecordError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.grading.csv_exports import canvas_csv, grades_csv, moodle_csv
+from rosbeat.grading import platforms
+from rosbeat.grading.csv_exports import grades_csv
 from rosbeat.grading.feedback import FOLDER as FEEDBACK
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
 from rosbeat.grading.files import number, printable, write_whole
 from rosbeat.grading.manual_marks import FILE as MANUAL
 from rosbeat.grading.manual_marks import write_template
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.report import class_report
-from rosbeat.grading.submissions import Remark
 from rosbeat.records_json import as_data, from_json
 from rosbeat.viz.text_format import count, sentence_case
 
@@ -34,7 +35,7 @@ FORMAT = "rosbeat results"
 VERSION = 3
 #: Fields that are left out: those that differ from run to run, the texts of answers, and what they
 #: did.
-LEFT_OUT = {"mark": ("source", "trace"), "learner": ("files",), "class": ("solutions",)}
+LEFT_OUT = {"mark": ("source", "trace"), "learner": ("files", "details"), "class": ("solutions",)}
 _POINTS = ("points", "out_of", "judged")
 _DIGITS = 6
 #: Statuses in the order in which they are told, and what they are called.
@@ -72,10 +73,14 @@ def write_results(out: Path, gradebook: Gradebook, assignment: str = "rosbeat") 
     files: dict[str, str | bytes] = {
         "class.html": class_report(gradebook),
         "grades.csv": grades_csv(gradebook),
-        "moodle.csv": moodle_csv(gradebook),
-        "canvas.csv": canvas_csv(gradebook, assignment),
-        **zips.files(),
     }
+    for platform in platforms.PLATFORMS:
+        if platform.has_free_names:
+            continue
+        theirs = [one for one in gradebook.learners if one.system == platform.name]
+        table = platform.table(theirs, assignment) if theirs else ""
+        files[f"{platform.name}.csv"] = table
+        files[f"{platform.name}_feedback.zip"] = zips.zip_for(platform.name)
     for name, content in files.items():
         _write(out / name, content)
     for name in set(before.values()) - set(names.values()):

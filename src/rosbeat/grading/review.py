@@ -30,10 +30,10 @@ from rosbeat.grading.files import cell, number, write_whole
 from rosbeat.grading.groups import Group, groups_of
 from rosbeat.grading.manual_marks import FILE, apply_manual, meant, points_by_hand, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import render
 from rosbeat.grading.results import summary
 from rosbeat.grading.roster import Lookup, UnusableError
-from rosbeat.grading.submissions import Remark
 from rosbeat.grading.traces import picture
 from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
 

@@ -17,13 +17,8 @@ from rosbeat.grading.judging import WATCHER_LOST, judge_and_trace, untouched
 from rosbeat.grading.ledger import Ledger, key_of
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Points, Solution, scaled
 from rosbeat.grading.notebook import Cell, CoursePage
-from rosbeat.grading.submissions import (
-    REACHES_INSIDE,
-    Collection,
-    HandedIn,
-    Remark,
-    Submission,
-)
+from rosbeat.grading.remarks import REACHES_INSIDE, Remark
+from rosbeat.grading.submissions import Collection, HandedIn, Submission
 from rosbeat.grading.submitted_page import NOT_THERE, Answer, SubmittedPage, submitted_page
 from rosbeat.records import Outcome
 

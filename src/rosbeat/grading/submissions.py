@@ -1,47 +1,28 @@
 """Find each learner's submitted pages in a folder or a zip file.
 
-The name formats are those of Moodle's "Download all submissions", with and without folders
-(`mod/assign/locallib.php`, `download_submissions`), of Canvas's "Download Submissions"
-(`app/models/content_zipper.rb`), and a folder or a zip file for each learner.
+Whose a file is follows from its path, which a learning platform has made or not: `platforms`,
+`downloads`.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 from pathlib import Path
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.archives import EMPTY_FOLDER, OTHER_ARCHIVES, Allowance, File, open_upload
 from rosbeat.grading.archives import opened as opened_file
+from rosbeat.grading.downloads import with_owners
 from rosbeat.grading.files import printable
 from rosbeat.grading.notebook import CoursePage, Notebook, read_notebook, which_page
+from rosbeat.grading.platforms import own_path, platform_named
+from rosbeat.grading.platforms.base import NOTEBOOKS, Owner
+from rosbeat.grading.remarks import Remark
 
 #: The file that marks a folder as a release; see `release`.
 MARKER = ".rosbeat-release.json"
-#: What a remark is about that is for the instructor only: an answer that reaches for what runs and
-#: observes it.
-REACHES_INSIDE = "reaches-inside"
-
-
-@dataclass(frozen=True)
-class Remark:
-    """Tell something about one file.
-
-    Attributes:
-        about: What it is: `late`, `duplicate`, `renamed`, `empty`, `wrong-course`, `unreadable`
-            or `left-out`; or `manual`, a line of `manual.csv`; or
-            `roster`, a line of the roster or somebody who is not on it; or `reaches-inside`, an
-            page that reaches for what observes it.
-        path: The file, as it was named, made safe to print.
-        text: One sentence about what was found and what was done.
-    """
-
-    about: str
-    path: str
-    text: str
 
 
 @dataclass(frozen=True)
@@ -51,9 +32,11 @@ class HandedIn:
     Attributes:
         page: The lesson's name, such as `03_write_a_publisher`.
         notebook: What could be read of it. If it has a `problem`, nothing could.
-        late: Whether the system marked it as late, or it is newer than the deadline.
-        modified: When it was last changed, in seconds since 1970; 0 if unknown.
+        late: Whether the platform marked it as late, or it is newer than the deadline.
+        modified: When it was handed in, or last changed, in seconds since 1970; 0 if unknown.
         off: The share of its points that is taken off because it is late, from 0 to 1.
+        is_dated: Whether `modified` says when it was handed in. Some platforms date every file of a
+            download at the moment of the download.
     """
 
     page: str
@@ -62,6 +45,7 @@ class HandedIn:
     late: bool
     modified: float
     off: float = 0.0
+    is_dated: bool = True
 
 
 @dataclass(frozen=True)
@@ -70,10 +54,11 @@ class Submission:
 
     Attributes:
         learner: What tells this learner from others.
-        system: Where it came from: `moodle`, `canvas` or `folder`.
+        system: The name of the platform that it came from, or `folder`.
         pages: One for each page of the course that was handed in, in the order of the course.
         remarks: What is worth telling about these files.
         unread: Files that cannot be read and may be any page, with the reason.
+        details: What the platform and the roster say of the learner besides, by column.
     """
 
     learner: str
@@ -82,6 +67,7 @@ class Submission:
     pages: tuple[HandedIn, ...] = ()
     remarks: tuple[Remark, ...] = ()
     unread: tuple[Remark, ...] = ()
+    details: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def called(self) -> str:
@@ -101,147 +87,27 @@ def collect(source: Path, pages: Sequence[CoursePage]) -> Collection:
     """Find out who handed in what.
 
     Args:
-        source: A folder or a zip file: a folder or a zip file for each learner, or what Moodle or
-            Canvas lets an instructor download.
+        source: A folder or a zip file: a folder or a zip file for each learner, or what a learning
+            platform lets an instructor download.
         pages: The pages of the course.
 
     Raises:
         GradingError: If `source` is neither a folder nor a zip file.
     """
-    remarks: list[Remark] = []
-    owned: list[tuple[Owner, File]] = []
     with open_upload(source) as files:
-        level = _wrappers([_as_folder(file) for file in files])
-        deepest = _deepest([file.parts[level:] for file in files])
-        for file in files:
-            owner = owner_of(file.parts[level:], deepest)
-            if owner is not None:
-                owned.append((owner, file))
-            elif file.problem != EMPTY_FOLDER:
-                text = "It is in no learner's folder, and its name names no learner."
-                remarks.append(Remark("left-out", file.path, file.problem or text))
-        owned.sort(key=lambda one: (one[0].id, one[1].parts))
+        owned = with_owners(files)
         submissions = tuple(
-            _submission(list(group), pages) for _, group in groupby(owned, lambda one: one[0].id)
+            _submission(list(group), pages)
+            for _, group in groupby(owned.files, lambda pair: pair[0].id)
         )
-    return Collection(submissions, tuple(remarks))
-
-
-# Whose a file is.
-
-#: How files are called that may hold a page.
-_NOTEBOOKS = (".ipynb", ".json", ".txt")
-#: `Ana Muster_4711_assignsubmission_file_`, and behind it the file's name if there are no folders.
-#: A learner may choose that so that it looks like another one's: the first number counts.
-_MOODLE = re.compile(r"(?s)(?P<name>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
-#: `musterana_LATE_4711_998877_page-1.ipynb`; the number before the suffix counts attempts.
-_CANVAS = re.compile(
-    r"(?s)(?P<name>[^_]+)_(?P<late>LATE_)?(?P<id>\d+)_(?P<submission>\d+)_(?P<file>.+)"
-)
-_ATTEMPT = re.compile(r"(?s)(?P<stem>.+)-(?P<number>\d{1,3})(?P<suffix>\.\w+)")
-
-
-@dataclass(frozen=True)
-class Owner:
-    """Hold whose a file is.
-
-    Attributes:
-        id: What tells a learner from others: the number that the system gave, or the folder's name.
-        file: The file's own name, path included, without what the system added.
-        system: `moodle`, `canvas` or `folder`.
-        late: Whether the system marked it as late.
-        attempt: Which attempt it is, if the system counts them; else 0.
-    """
-
-    id: str
-    name: str
-    file: str
-    system: str
-    late: bool = False
-    attempt: int = 0
-
-
-def owner_of(parts: tuple[str, ...], deepest: int | None = None) -> Owner | None:
-    """Return whose a file is, or None if its path does not tell.
-
-    Args:
-        parts: Its path, folder by folder.
-        deepest: In how many of these a name that Moodle or Canvas made is looked for; by default in
-            all. What lies in a learner's own folder has names that the learner chose.
-    """
-    return _of_moodle(parts, deepest) or _of_canvas(parts, deepest) or _of_folder(parts)
-
-
-def _deepest(paths: Sequence[tuple[str, ...]]) -> int | None:
-    """Return in how many parts of a path a name that Moodle or Canvas made is looked for.
-
-    It may stand anywhere, as in several downloads beside each other, unless there are folders
-    without any: those are learners' own, and then only a folder's own name tells whose it is.
-    """
-    tried = [one for one in paths if one[-1].lower().endswith((*_NOTEBOOKS, ".zip"))]
-    named = {one[0] for one in tried if _of_moodle(one) or _of_canvas(one)}
-    return None if named >= {one[0] for one in tried if len(one) > 1} else 1
-
-
-def _of_moodle(parts: tuple[str, ...], deepest: int | None = None) -> Owner | None:
-    for place, part in enumerate(parts[:deepest]):
-        found = _MOODLE.fullmatch(part)
-        if found:
-            rest = [found["file"] or "", *parts[place + 1 :]]
-            file = "/".join(one for one in rest if one)
-            return Owner(found["id"], found["name"].strip(), file, "moodle")
-    return None
-
-
-def _of_canvas(parts: tuple[str, ...], deepest: int | None = None) -> Owner | None:
-    for place, part in enumerate(parts[:deepest]):
-        found = _CANVAS.fullmatch(part)
-        if not found:
-            continue
-        again = _ATTEMPT.fullmatch(found["file"])
-        file = again["stem"] + again["suffix"] if again else found["file"]
-        attempt = int(again["number"]) if again else 0
-        rest = "/".join((file, *parts[place + 1 :]))
-        late = bool(found["late"])
-        return Owner(found["id"], found["name"].strip(), rest, "canvas", late, attempt)
-    return None
-
-
-def _of_folder(parts: tuple[str, ...]) -> Owner | None:
-    if len(parts) == 1 and parts[0].lower().endswith(".zip"):
-        parts = (parts[0][: -len(".zip")], parts[0])
-    return Owner(parts[0], parts[0], "/".join(parts[1:]), "folder") if len(parts) > 1 else None
-
-
-def own_path(path: str) -> str:
-    """Return a file's path as its learner knows it, without what the system added."""
-    owner = owner_of(tuple(path.split("/")))
-    return (owner.file if owner else "") or path
-
-
-def _as_folder(file: File) -> tuple[str, ...]:
-    return (*file.parts[:-1], file.parts[-1][: -len(".zip")], "") if file.is_zip else file.parts
-
-
-def _wrappers(paths: Sequence[tuple[str, ...]]) -> int:
-    """Return how many folders around everything do not tell learners apart.
-
-    A download is often one folder with all others in it.
-    """
-    level = 0
-    while paths and all(len(path) > level + 2 for path in paths):
-        names = {path[level] for path in paths}
-        if len(names) != 1 or any(_MOODLE.fullmatch(n) or _CANVAS.fullmatch(n) for n in names):
-            break
-        level += 1
-    return level
+    return Collection(submissions, owned.remarks)
 
 
 # What one learner handed in.
 
 #: Remarks about files that are left out, one by one; of more, only the number is told.
 _MOST_LEFT_OUT = 20
-_Found = tuple["Owner", HandedIn]
+_Found = tuple[Owner, HandedIn]
 
 
 def _submission(files: Sequence[tuple[Owner, File]], pages: Sequence[CoursePage]) -> Submission:
@@ -262,7 +128,9 @@ def _submission(files: Sequence[tuple[Owner, File]], pages: Sequence[CoursePage]
         text = f"{len(reader.left_out) - _MOST_LEFT_OUT} more files are not notebooks."
         remarks.append(Remark("left-out", printable(first.name), text))
     unread = tuple(reader.unread)
-    return Submission(first.id, first.name, first.system, tuple(chosen), tuple(remarks), unread)
+    return Submission(
+        first.id, first.name, first.system, tuple(chosen), tuple(remarks), unread, first.details
+    )
 
 
 class _Reader:
@@ -281,6 +149,8 @@ class _Reader:
         if file.problem == EMPTY_FOLDER:
             self.remarks.append(Remark("empty", file.path, file.problem))
             return
+        if not owner.file and not file.problem:
+            return  # the platform's own, about this learner
         notebook = self._notebook(file)
         if notebook.problem:
             self._unreadable(owner, file, notebook)
@@ -297,7 +167,7 @@ class _Reader:
 
     def _notebook(self, file: File) -> Notebook:
         name = file.parts[-1].lower()
-        if not file.problem and not name.endswith(_NOTEBOOKS):
+        if not file.problem and not name.endswith(NOTEBOOKS):
             is_archive = name.endswith(OTHER_ARCHIVES)
             what = "an archive of a kind that is not opened" if is_archive else "not a notebook"
             return Notebook(problem=f"The file is {what}.")
@@ -323,7 +193,9 @@ class _Reader:
             self._keep(owner, file, notebook, named)
 
     def _keep(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
-        handed = HandedIn(page.lesson, file.path, notebook, owner.late, file.modified)
+        modified = file.modified if owner.handed_in is None else owner.handed_in
+        dated = owner.handed_in is not None or platform_named(owner.system).dates_files
+        handed = HandedIn(page.lesson, file.path, notebook, owner.late, modified, is_dated=dated)
         self.found.append((owner, handed))
 
 
@@ -346,8 +218,9 @@ def _rank(one: _Found) -> tuple[bool, int, float, int]:
 # What cannot be submissions.
 
 _MEANS = """\
-Nothing was written. Submissions are the zip file that Moodle or Canvas lets you download,
-                 or a folder (or a zip file) for each learner with pages of the course in it, as
+Nothing was written. Submissions are the zip file that Moodle, Canvas or another platform
+                 lets you download, or a folder (or a zip file) for each learner with pages of
+                 the course in it, as
                  ana/03_write_a_publisher.ipynb  and  ben/03_write_a_publisher.ipynb  are."""
 _TRY = "Give that zip file or folder; docs/instructors.md shows what it may look like."
 

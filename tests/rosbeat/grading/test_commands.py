@@ -7,10 +7,16 @@ import json
 import os
 import re
 import signal
+import subprocess
+import sys
+import threading
+import time
+import zipfile
 from pathlib import Path
 
 import pytest
 
+from parsed_html import Parsed
 from rosbeat import cli
 from rosbeat.errors import GradingError, StoppedError
 from rosbeat.grading import commands
@@ -20,35 +26,12 @@ from rosbeat.grading.commands import (
     choose_pages,
     find_checkout,
 )
-from rosbeat.grading.jobs import Evidence, PageEvidence
 from rosbeat.grading.ledger import FILE
+from rosbeat.grading.lock import alone_in
 from rosbeat.grading.review import ReviewServer
-from small_course import PAGES, small_course
+from small_course import PAGES
 
 ROOT = Path(__file__).resolve().parents[3]
-
-
-@pytest.fixture
-def course(tmp_path, monkeypatch):
-    """A very small course, and two learners of it."""
-    root = small_course(tmp_path / "course")
-    monkeypatch.setattr(commands, "course_root", lambda: root)
-    for name in ("ana", "ben"):
-        (tmp_path / "class" / name).mkdir(parents=True)
-        text = (root / "notebooks/03_write.ipynb").read_text().replace("____", f"x = '{name}'")
-        (tmp_path / "class" / name / "03_write.ipynb").write_text(text)
-
-
-@pytest.fixture
-def run(course, capsys):
-    """Type a command: what it has printed, and its exit code."""
-
-    def run(name, *words):
-        parsed = cli._parser().parse_args([name, *map(str, words)])
-        code = parsed.run(parsed)
-        return capsys.readouterr(), code
-
-    return run
 
 
 # Pages by their names.
@@ -153,45 +136,6 @@ def test_what_is_half_or_cannot_be_read_is_told(told, submissions):
 
 
 # `rosbeat grade`.
-
-
-class Workers:
-    """Takes the place of the pool: every answer raises the same, and each job is counted."""
-
-    def __init__(self, *options):
-        self.options = options
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        pass
-
-    def observe(self, submissions):
-        for key, job in (one for some in submissions for one in some):
-            self.jobs.append(job)
-            seen = Evidence("ended", raised="ZeroDivisionError", text="division by zero")
-            yield key, PageEvidence(dict.fromkeys(job.subjects, seen))
-
-
-@pytest.fixture
-def workers(monkeypatch):
-    made = type("Made", (Workers,), {"jobs": []})
-    monkeypatch.setattr(commands, "Pool", made)
-    return made
-
-
-@pytest.fixture
-def typed(course, workers, tmp_path, run):
-    """Type `rosbeat grade`, and return what it has printed."""
-
-    def typed(*words, code=0):
-        words = (tmp_path / "class", "--out", tmp_path / "out", *words)
-        said, ended = run("grade", *words)
-        assert ended == code
-        return said
-
-    return typed
 
 
 def results(tmp_path):
@@ -449,6 +393,109 @@ def test_a_late_page_loses_points_unless_its_learner_has_an_extension(typed, tmp
     assert [one["about"] for one in ana["remarks"]] == ["late"]
     assert "20% of the points of this page are taken off" in ana["remarks"][0]["text"]
     assert ben["remarks"] == []
+
+
+def text_of(path):
+    return " ".join(Parsed(path.read_text("utf-8")).text.split())
+
+
+def test_a_deduction_says_late_wherever_points_are(all_right, typed, tmp_path):
+    """Fault 4 of a review: 1.8 of 2 points, "It does what is asked", and not a word of why."""
+    due = 1_000_000
+    names = {"ana": "Ana_11_assignsubmission_file_", "ben": "Ben_12_assignsubmission_file_"}
+    for name, moment in (("ana", due + 1), ("ben", due)):
+        folder = tmp_path / "class" / name
+        folder = folder.rename(folder.with_name(names[name]))
+        os.utime(folder / "03_write.ipynb", (moment, moment))
+    (tmp_path / "points.csv").write_text("03a,2\n")
+    words = ("--due", "1970-01-12T13:46:40Z", "--late", "10%/day", "--points",
+             tmp_path / "points.csv")  # fmt: skip
+    typed(*words)
+    ana, ben = rows(tmp_path)
+    assert (ana["points"], ana["judged"], ana["late"], ana["deducted"]) == (
+        "1.8", "2", "yes", "0.2"
+    )  # fmt: skip
+    assert (ben["points"], ben["late"], ben["deducted"]) == ("2", "", "")
+    of_ana, of_ben = (one["Feedback comments"] for one in rows(tmp_path, "moodle.csv"))
+    late = "Late: 0.2 of 2 points were deducted."
+    assert f"1.8 of 2. {late}" in of_ana
+    pages = sorted((tmp_path / "out/feedback").iterdir())
+    page_of_ana, page_of_ben = map(text_of, pages)
+    assert late in page_of_ana
+    assert "Late: 0.2 of the points that you reached were deducted." in page_of_ana
+    assert "1.8 (0.2 late)" in text_of(tmp_path / "out/class.html")
+    assert "late" not in (of_ben + page_of_ben).casefold()
+    # Points by hand are final, so nothing of them was deducted.
+    (tmp_path / "out/manual.csv").write_text("learner,exercise,points,comment\n11,03a,1.5,\n")
+    typed(*words)
+    assert "Late: " not in rows(tmp_path, "moodle.csv")[0]["Feedback comments"]
+    assert rows(tmp_path)[0]["deducted"] == ""
+
+
+# Canvas gets a notebook, which is a page, too.
+
+
+def test_the_notebook_for_canvas_says_late_as_well(all_right, typed, tmp_path):
+    page = tmp_path / "class/ana/03_write.ipynb"
+    (tmp_path / "class/b_LATE_1_9_03_write.ipynb").write_text(page.read_text())
+    for name in ("ana", "ben"):
+        (tmp_path / "class" / name / "03_write.ipynb").unlink()
+        (tmp_path / "class" / name).rmdir()
+    typed("--due", "2001-01-01", "--late", "20%")
+    with zipfile.ZipFile(tmp_path / "out/canvas_feedback.zip") as archive:
+        assert "Late: 0." in archive.read("b_LATE_1_9_03_write.ipynb").decode()
+
+
+def test_a_rejected_line_publishes_nothing_of_itself(typed, tmp_path):
+    (tmp_path / "out").mkdir()
+    lines = "learner,exercise,points,comment\nana,03a,-1,SECRET\nben,99z,1,SECRET\n,,,SECRET\n"
+    (tmp_path / "out/manual.csv").write_text(lines)
+    assert typed(code=WAITS).out.count("Nothing is taken from this line.") == 3
+    for path in (tmp_path / "out").rglob("*"):
+        if path.is_file() and path.name != "manual.csv":
+            assert b"SECRET" not in path.read_bytes(), path
+
+
+# Two at once.
+
+
+def test_a_second_grader_waits_and_says_for_whom(typed, tmp_path):
+    typed()
+    before = files_of(tmp_path / "out")
+    inside, done = threading.Event(), threading.Event()
+    told = []
+
+    def grade():
+        with alone_in(tmp_path / "out", told.append):
+            inside.set()
+            done.wait(20)
+
+    first = threading.Thread(target=grade)
+    first.start()
+    assert inside.wait(20)
+    threading.Timer(0.3, done.set).start()
+    began = time.monotonic()
+    said = typed().err
+    first.join(20)
+    assert time.monotonic() - began > 0.25
+    (line,) = [one for one in said.splitlines() if "is grading into" in one]
+    assert f"(process {os.getpid()}, since 20" in line
+    assert f"{tmp_path / 'out'}; this one goes on when it is done." in line
+    assert told == []
+    assert files_of(tmp_path / "out") == before  # and nothing of the lock stays
+    assert "is grading into" not in typed().err
+
+
+def test_a_grader_that_was_killed_keeps_nobody(typed, tmp_path):
+    typed()
+    program = (
+        "import os, sys; from pathlib import Path; from rosbeat.grading.lock import alone_in\n"
+        "with alone_in(Path(sys.argv[1]), print):\n    os.kill(os.getpid(), 9)\n"
+    )
+    subprocess.run([sys.executable, "-c", program, tmp_path / "out"], timeout=60)
+    assert (tmp_path / "out/.grading").exists()
+    assert "is grading into" not in typed().err
+    assert not (tmp_path / "out/.grading").exists()
 
 
 # What is typed.

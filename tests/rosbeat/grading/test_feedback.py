@@ -18,9 +18,10 @@ from parsed_html import ELEMENTS, Parsed, require_harmless
 from rosbeat.exercises.scenarios import TypedIn
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_notebook
 from rosbeat.grading.marks import Gradebook, Graded, Solution
+from rosbeat.grading.platforms import PLATFORMS
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import STATUSES
 from rosbeat.grading.report import class_report
-from rosbeat.grading.submissions import Remark
 from rosbeat.grading.submitted_page import NOT_THERE
 from rosbeat.grading.traces import trace_of
 from rosbeat.records import Observation, Sample
@@ -181,7 +182,8 @@ def zipped(*learners):
     zips = FeedbackZips()
     for one in learners:
         zips.add(one, f"<p>{one.name}</p>")
-    made = {name: ZipFile(BytesIO(data)) for name, data in zips.files().items() if data}
+    data = {one.name: zips.zip_for(one.name) for one in PLATFORMS}
+    made = {f"{name}_feedback.zip": ZipFile(BytesIO(one)) for name, one in data.items() if one}
     return {name: {one: file.read(one) for one in file.namelist()} for name, file in made.items()}
 
 

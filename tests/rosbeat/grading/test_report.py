@@ -46,7 +46,7 @@ SAID = """
 Judged by version 0.1.0
 Median 44 %, mean 44 % of the points.
 A topic name that no other node uses
-Hint for the class: Compare the two names letter by letter.
+Hint for the class (03b): Compare the two names letter by letter.
 03 Write a publisher
 Ana Muster (4711) 04b raise the alarm 04.ipynb It used more memory than there is.
 Ana Muster homework (1).ipynb This is the page 03; it has another name.
@@ -116,6 +116,22 @@ BOOK = Gradebook(
 )
 
 
+def test_a_hint_and_an_example_are_about_one_exercise():
+    """Fault 10 of a review: the hint of one exercise beside what was seen in another."""
+    marks = (
+        wrong("08c", "boundary", "About 08c.", "Rare in 08c."),
+        wrong("08c", "boundary", "About 08c.", "Seen in 08c."),
+        wrong("08c", "boundary", "About 08c.", "Seen in 08c."),
+        *(wrong("12d", "boundary", f"About 12d, {n}.", "Seen in 12d.") for n in range(5)),
+    )
+    book = Gradebook("1", tuple(learner(f"l{n}", one) for n, one in enumerate(marks)))
+    (tally,) = tally_mistakes(book)
+    assert (tally.example, tally.hint, tally.evidence) == ("08c", "About 08c.", "Seen in 08c.")
+    text = text_of(class_report(book))
+    assert "Hint for the class (08c): About 08c. Seen, for example (08c): Seen in 08c." in text
+    assert "Seen in 12d" not in text
+
+
 def test_a_class_is_counted():
     found = {one.exercise: one.statuses for one in tally_exercises(BOOK)}
     assert found == {
@@ -126,6 +142,7 @@ def test_a_class_is_counted():
     assert (first.mistake, first.count, first.learners) == ("boundary", 3, 2)
     assert (first.places, first.hint) == ((("04a", 2), ("03a", 1)), "two")
     assert (second.mistake, second.count) == ("new-to-me", 1)
+    assert (first.example, first.evidence) == ("03a", "e")
     for many, said in (
         (6, "05a 1×"),
         (7, "and in 1 more exercise"),

@@ -11,6 +11,8 @@ from jsonschema import Draft202012Validator
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.platforms import PLATFORMS
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.results import (
     FORMAT,
     LEFT_OUT,
@@ -18,7 +20,6 @@ from rosbeat.grading.results import (
     summary,
     to_results,
 )
-from rosbeat.grading.submissions import Remark
 from rosbeat.records import Part
 from rosbeat.records_json import from_json
 
@@ -47,6 +48,20 @@ def test_what_is_written_is_read_back_and_follows_the_schema(size):
     made = a_class(size)
     assert read(to_results(made)) == made
     assert complaints(to_results(made)) == []
+
+
+@pytest.mark.parametrize("system", [*(platform.name for platform in PLATFORMS), "seventh"])
+def test_the_schema_takes_learners_of_every_platform(one, system):
+    learners = tuple(replace(graded, system=system) for graded in one.learners)
+    assert complaints(to_results(replace(one, learners=learners))) == []
+
+
+def test_the_guide_for_instructors_has_every_platform():
+    text = (Path(__file__).resolve().parents[3] / "docs/instructors.md").read_text("utf-8")
+    for platform in PLATFORMS:
+        if not platform.has_free_names:
+            assert f"- **{platform.title}:** " in text
+            assert f"`{platform.name}.csv`" in text
 
 
 @pytest.mark.parametrize("text", HOSTILE)

@@ -159,6 +159,45 @@ def test_two_of_one_name_are_told_and_nobody_gets_a_zero_for_it(joined):
     assert own == {}
 
 
+KIMS = ["Kim Li_20028_assignsubmission_file_"]
+
+
+def test_the_id_decides_between_two_of_one_name_and_nobody_vanishes(joined):
+    """Fault 2 of a review: one of them had no row, and the other got her extension."""
+    text = "id,name,extension\n20008,Kim Li,3 days\n20028,Kim Li,\n"
+    found, remarks, own = joined(text, KIMS)
+    assert found == {"20008": ("moodle", 0), "20028": ("moodle", 1)}
+    assert remarks == []
+    assert own == {"20008": 3 * 86_400}
+
+
+@pytest.mark.parametrize(
+    ("text", "folders", "learners", "remarks"),
+    [
+        # Numbers of students, which Moodle does not know: the name is all there is.
+        ("x1,Kim Li,3\nx2,Kim Li,\n", KIMS, {"20028", "x1", "x2"}, 2),
+        ("x1,Kim Li,3\nx2,Kim Li,\nx3,Kim Li,\n",
+         [*KIMS, "Kim Li_2_assignsubmission_file_"], {"20028", "2", "x1", "x2", "x3"}, 3),
+        ("x1,Kim Li,3\nx2,Kim Li,\n",
+         [*KIMS, "Kim Li_2_assignsubmission_file_"], {"20028", "2"}, 2),
+        ("x1,Kim Li,\nx2,Bo Li,3\n", KIMS, {"20028", "x2"}, 0),
+        # Whoever has another id is another person, and is told not to be on the roster.
+        ("1,Ana,3\n2,Kim Li,\n", [*KIMS, "Ana_1_assignsubmission_file_"],
+         {"1", "2", "20028"}, 1),
+        ("20028,Kim Li,\n,Kim Li,3\n", KIMS, {"20028", "Kim Li"}, 1),
+        ("20028,Kim Li,\n20028,Kim Li,\n", KIMS, {"20028"}, 1),
+        # Folders are called by the id or by the name, as it came.
+        ("1,Ana Petrov,\n2,Ben Okafor,3\n", ["1", "ben okafor"], {"1", "ben okafor"}, 0),
+    ],
+)  # fmt: skip
+def test_each_line_with_an_id_of_its_own_has_a_row(joined, text, folders, learners, remarks):
+    found, told, own = joined(f"id,name,extension\n{text}", folders)
+    assert set(found) == learners
+    assert len(told) == remarks
+    assert set(own) <= set(found)
+    assert "20028" not in own  # nobody gets the extension of somebody of the same name
+
+
 def test_whoever_is_named_twice_is_told(joined):
     found, remarks, own = joined("id,extension\nana,\nben,\nana,1\nben,\n", ["ana"])
     assert found == {"ana": ("folder", 1), "ben": ("folder", 0)}

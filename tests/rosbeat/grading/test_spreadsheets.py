@@ -1,4 +1,4 @@
-"""An instructor opens the tables in a spreadsheet, and takes them to Moodle and Canvas."""
+"""An instructor opens the tables in a spreadsheet, and takes them to a learning platform."""
 
 import csv
 import io
@@ -9,9 +9,10 @@ from html.parser import HTMLParser
 import pytest
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
-from rosbeat.grading.csv_exports import canvas_csv, grades_csv, moodle_csv
+from rosbeat.grading.csv_exports import grades_csv
 from rosbeat.grading.files import cell
 from rosbeat.grading.marks import Gradebook, Graded
+from rosbeat.grading.platforms import PLATFORMS, platform_named
 
 NASTY = [
     *HOSTILE,
@@ -49,11 +50,33 @@ def book(*learners):
     return Gradebook("0.1.0", learners)
 
 
+def uploaded(system, made, assignment="rosbeat"):
+    """What is uploaded to a platform; nothing for other platforms' learners."""
+    learners = [one for one in made.learners if one.system == system]
+    return platform_named(system).table(learners, assignment) if learners else ""
+
+
+def moodle_csv(made):
+    return uploaded("moodle", made)
+
+
+def canvas_csv(made, assignment="rosbeat"):
+    return uploaded("canvas", made, assignment)
+
+
+#: Rows of the table of a platform, besides that of the learner and the heading.
+EXTRA_ROWS = {"canvas": 1}
+SYSTEMS = [one.name for one in PLATFORMS if not one.has_free_names]
+
+
 @pytest.mark.parametrize("text", NASTY)
 def test_hostile_names_leave_tables_whole_and_no_cell_is_a_formula_in_any_country(text):
-    made = book(*(replace(hostile_learner(text), system=one) for one in ("moodle", "canvas")))
+    details = dict.fromkeys(("orgdefinedid", "username", "sid", "email"), text or "x")
+    hostile = replace(hostile_learner(text), details=details)
+    made = book(*(replace(hostile, system=one) for one in SYSTEMS))
     marks = sum(len(one.marks) for one in made.learners)
-    tables = ((marks, grades_csv(made)), (1, moodle_csv(made)), (2, canvas_csv(made)))
+    tables = [(marks, grades_csv(made))]
+    tables += [(1 + EXTRA_ROWS.get(one, 0), uploaded(one, made, text)) for one in SYSTEMS]
     # Where cells are parted at semicolons, a whole row of ours may be one.
     before = csv.field_size_limit(1_000_000)
     try:
@@ -93,7 +116,7 @@ def test_all_that_matters_stands_in_the_row():
             "learner": "4711", "name": "Ana Muster", "system": "moodle", "page": made.page,
             "exercise": "04c", "title": "calm", "status": "passed", "points": "0.5",
             "out_of": "1", "cause": "So.", "mistake": "boundary", "late": "yes", "judged": "0",
-            "manual": "yes", "comment": "A nice idea.", "differs": "One. Two.",
+            "deducted": "", "manual": "yes", "comment": "A nice idea.", "differs": "One. Two.",
         }
     ]  # fmt: skip
 

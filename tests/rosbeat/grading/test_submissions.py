@@ -17,11 +17,8 @@ from rosbeat.grading import archives
 from rosbeat.grading.deadlines import mark_late, read_due
 from rosbeat.grading.files import printable
 from rosbeat.grading.notebook import read_notebook, which_page
-from rosbeat.grading.submissions import (
-    collect,
-    own_path,
-    require_apart,
-)
+from rosbeat.grading.platforms import own_path
+from rosbeat.grading.submissions import collect, require_apart
 
 MORE_03 = json.dumps({**json.loads(PAGE_03), "cells": [*json.loads(PAGE_03)["cells"], cell("1")]})
 BOTH = {"03_write.ipynb": PAGE_03, "04_listen.ipynb": PAGE_04}
@@ -111,6 +108,28 @@ def test_a_home_in_which_nobody_opened_the_course_is_no_learners(handed_in, page
     assert summary(found) == {"ana": ["03", "04"]}
     (remark,) = found.remarks
     assert (remark.path, remark.text) == ("admin", "Nobody has opened the course in this home.")
+
+
+def without_notes(files):
+    """The same after the learner has reset the progress, as docs/exercises.md says."""
+    return {name: text for name, text in files.items() if "/.rosbeat/" not in name}
+
+
+@pytest.mark.parametrize("everybody", [False, True])
+def test_whoever_resets_the_progress_stays_in_the_class(handed_in, pages, everybody):
+    ana = without_notes(home("ana")) if everybody else home("ana")
+    found = collect(handed_in({**ana, **without_notes(home("ben")), "admin/notes.txt": ""}), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"]}
+    assert only(found, "ben").remarks == ()
+    assert [remark.path for remark in found.remarks] == ["admin"]
+
+
+@pytest.mark.parametrize(
+    "others", [inside("ben/"), inside("ben/pages/"), {"ben.zip": zipped(BOTH)}], ids=range(3)
+)
+def test_a_folder_of_the_course_among_what_was_handed_in_makes_no_homes(handed_in, pages, others):
+    found = collect(handed_in({**inside("ana/my_course/"), **others}), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"]}
 
 
 @pytest.mark.parametrize("place", ["my_course/03_write.ipynb", "my_course", "my_course/.rosbeat"])
