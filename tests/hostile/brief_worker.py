@@ -8,7 +8,7 @@ from rosbeat.grading import worker
 
 def main(options):
     """Answer jobs, with other limits."""
-    worker.WALL = 8.0
+    worker.WALL = 10.0
     # To use up a whole gigabyte takes a busy machine seconds; a page needs half of this.
     worker.Limits = partial(worker.Limits, memory=300 * 1_000_000)
     prepare = worker.prepare
@@ -17,7 +17,7 @@ def main(options):
         prepare()
         from rosbeat.grading import page_process
 
-        page_process.CELL_SECONDS, page_process.CHECK_SECONDS = 2.5, 3.5
+        page_process.CELL_SECONDS, page_process.CHECK_SECONDS = 4.0, 3.5
         page_process.LOST_AT_MOST, page_process.HURRIED = 5.0, 1 / 3
         from rosbeat.ros import scenario
 

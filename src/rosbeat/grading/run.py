@@ -135,13 +135,15 @@ def _judge_new(
         return
     for key, page in observe([pages for pages in todo if pages]):
         for exercise in by_key[key].subjects:
+            done += 1
+            if ledger.get(f"{key}/{exercise}") is not None:
+                continue  # whoever was stopped in the middle of the page has noted it
             evidence = page.exercises.get(exercise, Evidence(LOST))
             seed = by_key[key].seeds.get(exercise, 0)
             outcome, trace = judge_and_trace(EXERCISES[exercise], evidence, seed)
             # Who loses workers may have had bad luck; the next run tries that page again.
             stays = evidence.how != LOST
             ledger.add(f"{key}/{exercise}", outcome, stays, trace, page.remarks)
-            done += 1
         tell(done, total)
 
 
