@@ -6,8 +6,8 @@ what rclpy does.
 
 Three kinds of patches are elsewhere. What is replaced on one object, such as `publish` of a
 publisher, is in `entity_watch`, `actions`, `qos_events` and `recording`. What is replaced only
-while nodes run, such as the default context or `time.sleep`, is in `context` and `clock`. What
-belongs to Python, such as threads, is in `threads`.
+while nodes run, such as the default context or `time.sleep`, is in `context`, `clock` and
+`simulated_program`. What belongs to Python, such as threads, is in `threads`.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from rclpy.clock import Clock
 from rclpy.context import Context
 from rclpy.executors import Executor, MultiThreadedExecutor
 from rclpy.guard_condition import GuardCondition
+from rclpy.impl import rcutils_logger
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
@@ -154,6 +155,8 @@ PATCHES = (
 
 def _install() -> None:
     context.release_interrupt()
+    # rclpy names the caller of a log line by skipping the files in this list.
+    rcutils_logger._internal_callers.append(logs.THIS_FILE)
     for patch in PATCHES:
         setattr(patch.owner, patch.name, patch.wrap(getattr(patch.owner, patch.name)))
 

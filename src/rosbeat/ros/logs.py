@@ -288,11 +288,9 @@ class _Here(threading.local):
 
 _here = _Here()
 
-_THIS_FILE = os.path.realpath(__file__)
-_OWN_FILES = (_THIS_FILE, os.path.realpath(rcutils_logger.__file__))
-
-# rclpy names the caller of a log line by skipping the files in this list; ours is one of them.
-rcutils_logger._internal_callers.append(_THIS_FILE)
+#: A file that is never the caller of a log line, as `hooks` tells rclpy.
+THIS_FILE = os.path.realpath(__file__)
+_OWN_FILES = (THIS_FILE, os.path.realpath(rcutils_logger.__file__))
 
 _log = RcutilsLogger.log
 _get_child = RcutilsLogger.get_child

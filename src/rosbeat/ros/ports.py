@@ -114,7 +114,7 @@ class Host(Protocol):
 
 
 class Observer(Protocol):
-    """Hear from the hooks on rclpy what nodes make and destroy, and what programs ask of ROS."""
+    """Hear from the hooks on rclpy what nodes make and destroy, and who spins them."""
 
     @property
     def start(self) -> Launch:
@@ -155,6 +155,10 @@ class Observer(Protocol):
 
     def logger_of(self, node: Node, logger: RcutilsLogger) -> RcutilsLogger:
         """Return the logger that the node's code gets."""
+
+
+class Guide(Protocol):
+    """Answer the calls of `rclpy.init` and `rclpy.shutdown` that reach the session's context."""
 
     def explain_init(self) -> None:
         """Answer `rclpy.init()` of a learner."""
@@ -273,5 +277,5 @@ class LimitHost(Host, Sender, Protocol):
     """Serve the clocks of QoS, which stand in the engine's order as entities do."""
 
 
-class AllPorts(Host, Observer, Sender, Starter, Spinner, Protocol):
+class AllPorts(Host, Observer, Guide, Sender, Starter, Spinner, Protocol):
     """Combine what a node's context leads to: hooks and programs find the session through it."""
