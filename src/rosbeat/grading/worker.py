@@ -2,14 +2,15 @@
 
 ::
 
-    worker           has imported everything that answers need; never reads a submission
+    worker           has imported everything that pages need; never reads a submission
       └─ keeper      a fork for one submission: reads its jobs, creates its sandbox (see `sandbox`)
-           └─ work   a fork for one answer
+           └─ work   a fork for one page, which forks once more for each check
 
 Each line on standard input is a submission: a list of lines of JSON, one per job. For each job the
-worker writes a line to standard output. ROS itself is only started in the work, because a fork
-after `rclpy.init` hangs. Since the worker never reads a submission, the next learner's program
-finds no trace of it in its own memory. The worker's environment contains only what ROS needs.
+worker writes a line to standard output. ROS itself is only started in the work, and a check starts
+it anew in its own fork: a context of the process above would not work there. Since the worker never
+reads a submission, the next learner's program finds no trace of it in its own memory. The worker's
+environment contains only what ROS needs.
 """
 
 from __future__ import annotations
