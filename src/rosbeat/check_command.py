@@ -24,6 +24,7 @@ from rosbeat.errors import ExerciseError
 from rosbeat.exercises.cells import checks_in
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.outcome_display import MIME, OPEN, RIGHT, WRONG
+from rosbeat.exercises.registry import PAGES
 from rosbeat.records_json import to_json
 
 #: Seconds for one cell; an endless loop is interrupted then, and the next cell runs.
@@ -118,9 +119,12 @@ def _no_page(path: Path, why: str) -> ExerciseError:
 
 
 def _checks(notebook: nbformat.NotebookNode) -> dict[str, nbformat.NotebookNode]:
-    """Return the cells that check an exercise, by the exercise; the last one counts."""
+    """Return the cells that check an exercise of a page, by the exercise; the last one counts."""
+    known = {exercise.id for page in PAGES if page.number for exercise in page.exercises}
     code = (cell for cell in notebook.cells if cell.cell_type == "code")
-    return {exercise: cell for cell in code for exercise in checks_in(cell.source)}
+    return {
+        exercise: cell for cell in code for exercise in checks_in(cell.source) if exercise in known
+    }
 
 
 def _execute(path: Path, notebook: nbformat.NotebookNode) -> str:

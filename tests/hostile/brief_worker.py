@@ -18,6 +18,7 @@ def main(options):
         from rosbeat.grading import page_process
 
         page_process.CELL_SECONDS, page_process.CHECK_SECONDS = 4.0, 3.5
+        page_process.GRACE = 1.5
         page_process.LOST_AT_MOST, page_process.HURRIED = 5.0, 1 / 3
         from rosbeat.ros import scenario
 

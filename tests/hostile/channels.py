@@ -38,17 +38,17 @@ DEEDS = (
     Deed(
         "a result without a seal",
         before(f"import os\nos.write(3, b'{_FORGED}')\nos._exit(0)", WRONG),
-        words="",
+        words="left-early",
     ),
     Deed(
         "a result with a made-up seal",
         before(f"import os\nos.write(3, b'{'0' * 32}{_FORGED}')\nos._exit(0)", WRONG),
-        words="",
+        words="left-early",
     ),
     Deed(
         "a result in front of the course's",
         before(f"import os\nos.write(3, b'{_FORGED}')", WRONG),
-        words="",
+        words="readings",
     ),
     Deed(
         "a result behind the course's",
@@ -67,7 +67,7 @@ DEEDS = (
     Deed(
         "a result that is no text",
         before("import os\nos.write(3, bytes(range(256)))\nos._exit(0)", WRONG),
-        words="",
+        words="seal",
     ),
     Deed(
         "a sealed result that is no evidence",
@@ -87,7 +87,7 @@ DEEDS = (
     ),
     Deed(
         "a sealed result, deeply nested",
-        before(f"{FIND_PAGE}\nwrite(said='[' * 100_000)", WRONG),
+        before(f"{FIND_PAGE}\nwrite(report='[' * 100_000)", WRONG),
         words="seal",
     ),
     Deed(

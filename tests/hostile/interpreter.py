@@ -75,7 +75,7 @@ DEEDS = (
             "os.write(1, b'passed')",
             WRONG,
         ),
-        words="",
+        words="AttributeError",
     ),
     Deed(
         "a profile function, in all threads",
@@ -159,7 +159,7 @@ DEEDS = (
             "program = 'import os; os.write(3, b\"passed\")'\n"
             "os.execv(sys.executable, [sys.executable, '-c', program])"
         ),
-        words="",
+        words="left-early",
     ),
     Deed(
         "numbers with other values",

@@ -59,7 +59,7 @@ DEEDS = (
         before(
             "import rosbeat.exercises.registry\nrosbeat.exercises.registry.EXERCISES = {}", WRONG
         ),
-        words="",
+        words="IndexError",
     ),
     Deed(
         "rosbeat's recorder",

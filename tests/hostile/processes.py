@@ -21,7 +21,7 @@ DEEDS = (
         words="passed",
         passes=True,
     ),
-    Deed("input", before("input()"), words="EOFError"),
+    Deed("input", before("input()"), words="StdinNotImplementedError"),
     Deed("exit", before("raise SystemExit(0)"), words="SystemExit"),
     Deed("_exit with 0", before("import os\nos._exit(0)"), words="ended"),
     Deed("SIGKILL of itself", before("import os\nos.kill(os.getpid(), 9)"), words="SIGKILL"),

@@ -286,6 +286,12 @@ def _cell(cell: Any, marker: int, name: str, seen: Counter[str]) -> SourceCell: 
     where = f"{name}:{marker}"
     metadata = {k: v for k, v in cell.metadata.items() if k not in _JUPYTEXT_KEYS}
     _refuse_unknown(cell.cell_type, metadata, where)
+    if metadata.get("shows") and {"exercise", "check", "save"} & set(metadata):
+        raise LessonError(
+            f"{where}: a cell that an exercise depends on does not only show something.",
+            "Grading may leave out what is marked with shows=true.",
+            "Take shows=true away.",
+        )
     source, magic = _magic(cell.source.strip("\n"), metadata, where)
     exercise, check = metadata.get("exercise"), metadata.get("check")
     # Many cells begin with the same magic; what tells them apart is the line below it.

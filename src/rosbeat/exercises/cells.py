@@ -262,6 +262,7 @@ def register(shell: Shell) -> None:
         shell.events.register("post_run_cell", cells.end)
 
 
+#: A call of `check` with an id, on a line that is no comment.
 _CHECK = re.compile(r"""(?m)^[^#\n]*?\bcheck\(\s*(?:exercise\s*=\s*)?["']\s*(\w+)\s*["']""")
 
 

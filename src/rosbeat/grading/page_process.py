@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import ast
 import asyncio
+import builtins
 import io
 import json
 import os
@@ -26,10 +27,11 @@ import warnings
 from asyncio import events
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from IPython.core.error import StdinNotImplementedError
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
@@ -39,7 +41,7 @@ from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import FORGED, PageCell, PageJob
+from rosbeat.grading.jobs import FORGED, Evidence, PageCell, PageJob
 from rosbeat.grading.tampering import watch_tampering
 from rosbeat.workspace import register as register_commands
 from rosbeat.workspace.location import PAGE, STEADY
@@ -48,6 +50,8 @@ from rosbeat.workspace.location import workspace as workspace_folder
 #: Seconds after which a cell that still runs is interrupted, as a learner does it, and that the
 #: observation of one answer may take.
 CELL_SECONDS, CHECK_SECONDS = 20.0, 60.0
+#: Seconds after its first interrupt in which a cell has to end; else its process is ended.
+GRACE = 5.0
 #: Seconds that a page may lose to cells and answers that do not end. When they are used up, each of
 #: the others has a part of the usual time: most need less than a second.
 LOST_AT_MOST, HURRIED = 60.0, 1 / 6
@@ -64,30 +68,19 @@ _monotonic, _sleep, _signal = time.monotonic, time.sleep, signal.signal
 _encode, _urandom, _to_text = json.JSONEncoder().encode, os.urandom, to_json
 
 
-@dataclass
-class Failure:
-    """Hold how a cell failed: the exception that it raised, or how it has ended its process."""
-
-    how: str = "ended"
-    number: int = 0
-    raised: str = ""
-    text: str = ""
-    line: int = 0
-    code: str = ""
-    is_missing: bool = False
-
-
 @dataclass(frozen=True)
 class Earlier:
     """Hold what earlier runs of a page have shown, which ended in the middle.
 
     Attributes:
         left_out: Cells that have ended the process, by their number, and how.
-        given_up: Exercises whose observation has ended the process.
+        given_up: Exercises whose observation has ended the process, and how.
+        lost: Seconds that were lost to cells and answers that do not end.
     """
 
-    left_out: Mapping[int, Failure] = field(default_factory=dict)
-    given_up: frozenset[str] = frozenset()
+    left_out: Mapping[int, Evidence] = field(default_factory=dict)
+    given_up: Mapping[str, Evidence] = field(default_factory=dict)
+    lost: float = 0.0
 
 
 def run_page(job: PageJob, earlier: Earlier, seal: str, result: int) -> None:
@@ -167,11 +160,18 @@ class _Sink(io.TextIOBase):
 
 
 class _Patience:
-    """Interrupt what goes on for long, as a learner does with a cell whose `main` spins."""
+    """Interrupt what goes on for long, as a learner does with a cell whose `main` spins.
 
-    def __init__(self) -> None:
+    Args:
+        lost: Seconds that earlier runs of the page have lost.
+        give_up: Called when a cell goes on after it was interrupted; it ends the process.
+    """
+
+    def __init__(self, lost: float, give_up: Callable[[], None]) -> None:
         self._until: float | None = None
-        self._paused, self.lost = 0.0, 0.0
+        self._interrupted_at: float | None = None
+        self._paused, self.lost = 0.0, lost
+        self._give_up = give_up
         threading.Thread(target=self._watch, args=(_getpid(),), daemon=True).start()
 
     def seconds(self, usual: float) -> float:
@@ -183,6 +183,7 @@ class _Patience:
         """Interrupt the block when it takes too long."""
         began, paused = _monotonic(), self._paused
         patience = self.seconds(CELL_SECONDS)
+        self._interrupted_at = None
         self._until = began + patience
         try:
             yield
@@ -208,16 +209,22 @@ class _Patience:
         while True:
             _sleep(0.1)
             until = self._until
-            if until is not None and _monotonic() > until:
-                self._until = _monotonic() + 1.0  # who catches it is interrupted again
-                _kill(process, signal.SIGINT)
+            if until is None or _monotonic() <= until:
+                continue
+            if self._interrupted_at is None:
+                self._interrupted_at = _monotonic()
+            elif _monotonic() > self._interrupted_at + GRACE:
+                self._give_up()
+            self._until = _monotonic() + 1.0  # who catches it is interrupted again
+            _kill(process, signal.SIGINT)
 
 
 class _Shell(InteractiveShell):
     """Behave as the shell of a kernel does that nobody sits in front of."""
 
     def raw_input(self, prompt: str = "") -> str:
-        raise RuntimeError(
+        """Refuse a question, as a kernel does of which nobody has asked for them."""
+        raise StdinNotImplementedError(
             "raw_input was called, but this frontend does not support input requests."
         )
 
@@ -237,10 +244,10 @@ class _Page:
     def __init__(self, job: PageJob, earlier: Earlier, write: Write) -> None:
         self._job, self._earlier, self._write = job, earlier, write
         self._given: set[str] = set()
-        self._failures: dict[int, Failure] = dict(earlier.left_out)
-        self._failed_checks: dict[str, tuple[int, Failure]] = {}
+        self._failures: dict[int, Evidence] = dict(earlier.left_out)
+        self._failed_checks: dict[str, tuple[int, Evidence]] = {}
         self._sink = _Sink()
-        self._patience = _Patience()
+        self._patience = _Patience(earlier.lost, self._give_up)
         self._to_text = _to_text  # what is looked up by name, an answer may have changed
         self._loop = asyncio.new_event_loop()
         self._shell = _new_shell()
@@ -252,6 +259,7 @@ class _Page:
         for descriptor in (0, 1, 2):
             os.dup2(null, descriptor)
         sys.argv = [*_ARGUMENTS]
+        builtins.input = self._shell.raw_input  # as a kernel does
         check_module.hand_over_to(self._shell, self._check)
         watch_tampering(lambda remark: self._write({"remark": remark}))
         for number, cell in enumerate(self._job.cells):
@@ -264,6 +272,11 @@ class _Page:
             if exercise not in self._given:
                 self._check_at_the_end(exercise)
         self._write({"done": True})
+
+    def _give_up(self) -> None:
+        """End the process with a cell that no interrupt ends; the page is run again without it."""
+        self._write({"stuck": True})
+        _exit(1)
 
     def _run_cell(self, number: int, cell: PageCell) -> None:
         self._sink.begin()
@@ -298,13 +311,15 @@ class _Page:
             )
         return shell.run_cell(source, store_history=True)
 
-    def _failure(self, error: BaseException, source: str) -> Failure:
+    def _failure(self, error: BaseException, source: str) -> Evidence:
+        """Return how a cell failed."""
         if isinstance(error, TooMuchOutput):
-            return Failure("output")
+            return Evidence("output")
         line = _line(error, self._shell.user_ns)
         lines = source.splitlines()
         code = lines[line - 1].strip() if 0 < line <= len(lines) else ""
-        return Failure("ended", 0, type(error).__name__, _text(error), line, code)
+        kind = type(error).__name__
+        return Evidence("ended", raised=kind, text=_text(error), line=line, code=code)
 
     # Checks.
 
@@ -314,7 +329,7 @@ class _Page:
             return
         self._write({"check": exercise.id})
         if exercise.id in self._earlier.given_up:
-            self._give(exercise.id, Failure("given up"))
+            self._give(exercise.id, self._earlier.given_up[exercise.id])
             return
         with self._patience.paused():
             if _is_looked_at(answer):
@@ -331,11 +346,10 @@ class _Page:
         """Look at what a page has left in files and terminals; nothing of a learner's runs."""
         began = _monotonic()
         try:
-            said: dict[str, Any] = {"seen": self._observed(exercise, answer)}
+            evidence = Evidence("ended", seen=self._observed(exercise, answer))
         except Exception as error:
-            said = vars(self._failure(error, ""))
-        self._given.add(exercise.id)
-        self._write({"evidence": exercise.id, **said, "seconds": round(_monotonic() - began, 3)})
+            evidence = self._failure(error, "")
+        self._give(exercise.id, evidence, began)
 
     def _fork(self, exercise: Exercise[Any], answer: Any) -> None:  # noqa: ANN401 - any answer
         """Observe an answer in a process of its own, so that whatever it does, the page goes on."""
@@ -350,19 +364,16 @@ class _Page:
         written, is_late = _all_written(reads, child, began + seconds)
         _close(reads)
         code = _ended(child)
-        self._given.add(exercise.id)
-        taken = round(_monotonic() - began, 3)
-        head: dict[str, Any] = {"evidence": exercise.id, "seconds": taken}
         if is_late:
-            head["how"] = "deadline"
+            self._give(exercise.id, Evidence("deadline"), began)
         elif not written:
-            head |= {"how": "signal", "number": -code} if code < 0 else {"how": "exit"}
-            head |= {"number": abs(code)}
-        elif written.startswith(token):
-            head["said"] = written.removeprefix(token)
+            self._give(exercise.id, Evidence("signal" if code < 0 else "exit", abs(code)), began)
+        elif not written.startswith(token):
+            self._give(exercise.id, Evidence(FORGED), began)
         else:
-            head["how"] = FORGED
-        self._write(head)
+            self._given.add(exercise.id)
+            report, seconds = written.removeprefix(token), round(_monotonic() - began, 3)
+            self._write({"evidence": exercise.id, "report": report, "seconds": seconds})
 
     def _be_observed(
         self,
@@ -378,20 +389,22 @@ class _Page:
             events._set_running_loop(self._loop)
             self._sink.begin()
             try:
-                said: dict[str, Any] = {"seen": self._observed(exercise, answer)}
+                evidence = Evidence("ended", seen=self._observed(exercise, answer))
                 if self._sink.printed > MOST_PRINTED:
-                    said = {"how": "output"}
+                    evidence = Evidence("output")
             except BaseException as error:
-                said = vars(self._failure(error, ""))
-            said["output"] = self._sink.kept
-            _write_all(writes, f"{token}{_encode(said)}")
+                evidence = self._failure(error, "")
+            report = {**vars(evidence), "output": self._sink.kept}
+            _write_all(writes, f"{token}{_encode(report)}")
             code = 0
         finally:
             _exit(code)
 
-    def _give(self, exercise: str, failure: Failure) -> None:
+    def _give(self, exercise: str, evidence: Evidence, began: float | None = None) -> None:
+        """Write the evidence of an exercise, with the seconds since its check began."""
         self._given.add(exercise)
-        self._write({"evidence": exercise, **vars(failure)})
+        seconds = 0.0 if began is None else round(_monotonic() - began, 3)
+        self._write({"evidence": exercise, **vars(evidence), "seconds": seconds})
 
     def _after_cell(self, number: int, cell: PageCell) -> None:
         """Note a check that its cell never came to; make one that is missing and cannot wait."""
@@ -428,7 +441,7 @@ class _Page:
                 failure = self._failure(error, text)
                 self._give(exercise, self._cause(exercise, len(self._job.cells), failure))
 
-    def _cause(self, exercise: str, before: int, failure: Failure) -> Failure:
+    def _cause(self, exercise: str, before: int, failure: Evidence) -> Evidence:
         """Return why a name is not there that a check asks for: the cell of the answer failed."""
         names = _names_in(self._job.subjects[exercise])
         if failure.raised != "NameError" or not any(f"'{name}'" in failure.text for name in names):
@@ -443,10 +456,8 @@ class _Page:
         failed = [number for number in own if number in self._failures]
         if failed:
             return self._failures[failed[-1]]
-        failure.is_missing = not any(
-            pattern.search(cell.source) for _, cell in numbered if not cell.checks
-        )
-        return failure
+        is_named = any(pattern.search(cell.source) for _, cell in numbered if not cell.checks)
+        return replace(failure, is_missing=not is_named)
 
 
 def _new_shell() -> Any:  # noqa: ANN401 - IPython carries no types

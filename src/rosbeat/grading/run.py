@@ -162,10 +162,10 @@ def _graded(one: Submission, submitted: Pages, plan: Plan, ledger: Ledger) -> Gr
         if there is None or there.notebook.problem:
             marks += _without_page(page, one, there, plan)
         else:
-            found = submitted[one.learner, page.lesson]
+            handed_in = submitted[one.learner, page.lesson]
             marks += [
-                _mark(answer, found, there, plan, ledger)
-                for answer in found.answers
+                _mark(answer, handed_in, there, plan, ledger)
+                for answer in handed_in.answers
                 if plan.out_of(answer.exercise) > 0
             ]
     remarks = (*one.remarks, *_remarks(one, submitted, plan, ledger))

@@ -19,17 +19,19 @@ from functools import partial
 from typing import Any
 
 from rosbeat.grading.jobs import FORGED, Evidence, PageEvidence, PageJob
-from rosbeat.grading.page_process import Earlier, Failure, run_page
+from rosbeat.grading.page_process import Earlier, run_page
 from rosbeat.grading.sandbox import Ending
 
 #: How often a page is run anew, since a cell or an answer has ended its process.
 _MOST_RUNS = 8
-#: Seconds that all runs of a page may take, by the clock on the wall.
-_MOST_SECONDS = 400.0
+#: Seconds that all runs of a page may take together, by the clock on the wall; whoever waits for
+#: a worker has more patience (`pool.PATIENCE`).
+_MOST_SECONDS = 300.0
 #: Of what an answer may have written itself, no more than the course writes is believed.
 _MOST, _MOST_LINES, _MOST_REMARKS = 2_000, 1_000_000, 20
-#: Runs a function in a sandbox; the function gets the descriptor to which it writes.
-RunWork = Callable[[Callable[[int], None]], Ending]
+#: Runs a function in a sandbox, for so many seconds at most; the function gets the descriptor to
+#: which it writes.
+RunWork = Callable[[Callable[[int], None], float], Ending]
 
 
 @dataclass
@@ -42,6 +44,7 @@ class Transcript:
         cell: The number of the cell that was begun last, or -1.
         check: The exercise that was begun last and not ended; empty if there is none.
         is_done: Whether the page came to its end.
+        is_stuck: Whether its process was ended because no interrupt has ended its cell.
         is_forged: Whether there is something that the course has not written.
     """
 
@@ -50,6 +53,7 @@ class Transcript:
     cell: int = -1
     check: str = ""
     is_done: bool = False
+    is_stuck: bool = False
     is_forged: bool = False
 
 
@@ -61,16 +65,15 @@ def observe_page(job: PageJob, run: RunWork) -> PageEvidence:
         run: Runs a function in the sandbox; each call in a process of its own.
     """
     earlier, seconds = Earlier(), 0.0
-    given_up: dict[str, Evidence] = {}
     remarks: dict[str, None] = {}
     is_retried = False
     for _ in range(_MOST_RUNS):
         seal = secrets.token_hex(16)
-        ending = run(partial(run_page, job, earlier, seal))
+        ending = run(partial(run_page, job, earlier, seal), _MOST_SECONDS - seconds)
         seconds += ending.seconds
         transcript = read_transcript(ending.result, seal)
         remarks |= transcript.remarks
-        if transcript.is_done or seconds > _MOST_SECONDS:
+        if transcript.is_done or seconds >= _MOST_SECONDS:
             break
         is_killed = (ending.how, ending.number) == ("signal", signal.SIGKILL)
         if is_killed and not is_retried:
@@ -78,31 +81,41 @@ def observe_page(job: PageJob, run: RunWork) -> PageEvidence:
             # that ends itself does so again.
             is_retried = True
             continue
-        if transcript.check:
-            given_up[transcript.check] = _ended(ending, transcript)
-            earlier = replace(earlier, given_up=frozenset(given_up))
-        elif 0 <= transcript.cell < len(job.cells):
-            failure = Failure(_how(ending, transcript), ending.number)
-            earlier = replace(earlier, left_out={**earlier.left_out, transcript.cell: failure})
-        else:
+        culprit = _without_culprit(job, earlier, transcript, ending)
+        if culprit is None:
             break
+        earlier = culprit
     rest = _ended(ending, transcript)
-    found = {
-        exercise: given_up.get(exercise) or transcript.evidence.get(exercise, rest)
+    exercises = {
+        exercise: earlier.given_up.get(exercise) or transcript.evidence.get(exercise, rest)
         for exercise in job.subjects
     }
-    return PageEvidence(found, tuple(remarks)[:_MOST_REMARKS], round(seconds, 3))
+    return PageEvidence(exercises, tuple(remarks)[:_MOST_REMARKS], round(seconds, 3))
+
+
+def _without_culprit(
+    job: PageJob, earlier: Earlier, transcript: Transcript, ending: Ending
+) -> Earlier | None:
+    """Return how to run a page without what has ended its process; None if that is not known."""
+    evidence = _ended(ending, transcript)
+    is_late = evidence.how == "deadline"
+    earlier = replace(earlier, lost=earlier.lost + (ending.seconds if is_late else 0.0))
+    if transcript.check:
+        return replace(earlier, given_up={**earlier.given_up, transcript.check: evidence})
+    if 0 <= transcript.cell < len(job.cells):
+        return replace(earlier, left_out={**earlier.left_out, transcript.cell: evidence})
+    return None
 
 
 def _ended(ending: Ending, transcript: Transcript) -> Evidence:
+    """Return how a run has ended, as the evidence of what has ended it."""
+    how = "exit" if ending.how == "ended" else ending.how
+    if transcript.is_stuck:
+        how = "deadline"
+    elif transcript.is_forged:
+        how = FORGED
     output = ending.output[:_MOST].decode("utf-8", "replace")
-    return Evidence(_how(ending, transcript), ending.number, output=output)
-
-
-def _how(ending: Ending, transcript: Transcript) -> str:
-    if transcript.is_forged:
-        return FORGED
-    return "exit" if ending.how == "ended" else ending.how
+    return Evidence(how, ending.number, output=output)
 
 
 def read_transcript(result: bytes, seal: str) -> Transcript:
@@ -127,10 +140,10 @@ def read_transcript(result: bytes, seal: str) -> Transcript:
 
 def _object(text: str) -> Mapping[str, Any] | None:
     try:
-        found = json.loads(text)
+        value = json.loads(text)
     except (ValueError, RecursionError):
         return None
-    return found if isinstance(found, dict) else None
+    return value if isinstance(value, dict) else None
 
 
 def _take(transcript: Transcript, message: Mapping[str, Any]) -> None:
@@ -146,6 +159,8 @@ def _take(transcript: Transcript, message: Mapping[str, Any]) -> None:
             transcript.remarks[remark[:_MOST]] = None
         case {"done": True}:
             transcript.is_done = True
+        case {"stuck": True}:
+            transcript.is_stuck = True
         case _:
             transcript.is_forged = True
 
@@ -154,11 +169,11 @@ def _evidence(message: Mapping[str, Any]) -> Evidence:
     """Return evidence from what the page's process, or that of a check, has written."""
     seconds = message.get("seconds")
     seconds = float(seconds) if isinstance(seconds, int | float) else 0.0
-    if "said" in message:
-        said = _object(str(message["said"]))
-        if said is None:
+    if "report" in message:
+        report = _object(str(message["report"]))
+        if report is None:
             return Evidence(FORGED, seconds=seconds)
-        message = said
+        message = report
     return Evidence(
         _text(message, "how") or "ended",
         _number(message, "number"),

@@ -26,7 +26,6 @@ import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 
 from rosbeat.environment import PROFILE_VARIABLES
@@ -178,20 +177,21 @@ def _say(line: str) -> None:
         data = data[os.write(1, data) :]
 
 
-def limits_of(job: PageJob) -> Limits:
-    """Return what a page may use; builds and programs in terminals need more processes.
+def limits_of(job: PageJob, seconds: float = WALL) -> Limits:
+    """Return what a run of a page may use; builds and programs in terminals need more processes.
 
     Args:
         job: The page.
+        seconds: How long it may take, by the clock on the wall.
     """
-    processes = 512 if job.needs_files else 128
-    return Limits(wall=WALL, cpu=int(WALL) + 1, processes=processes, result=RESULT)
+    processes, wall = 512 if job.needs_files else 128, min(WALL, seconds)
+    return Limits(wall=wall, cpu=int(wall) + 1, processes=processes, result=RESULT)
 
 
 def _observed(job: PageJob, sandbox: Sandbox) -> PageEvidence:
     from rosbeat.grading.transcript import observe_page
 
-    return observe_page(job, partial(sandbox.run, limits=limits_of(job)))
+    return observe_page(job, lambda work, seconds: sandbox.run(work, limits_of(job, seconds)))
 
 
 if __name__ == "__main__":

@@ -86,8 +86,8 @@ class Lives(Protocol):
         """Destroy a node, whole or half-made."""
 
 
-class Host(Protocol):
-    """Serve the engine and the executors: which nodes there are, and where callbacks run."""
+class Overview(Protocol):
+    """Know the nodes of the session, and record what becomes of them."""
 
     @property
     def nodes(self) -> NodeRegistry:
@@ -96,6 +96,10 @@ class Host(Protocol):
     @property
     def reports(self) -> Reporter:
         """Return what records callbacks and faults, and prints what is new."""
+
+
+class Host(Overview, Protocol):
+    """Serve the engine and the executors: which nodes there are, and where callbacks run."""
 
     @property
     def context(self) -> SessionContext:
@@ -198,20 +202,16 @@ class Sender(Timekeeper, Protocol):
         """Return how many goals were sent here; 0 in a domain with other processes in it."""
 
 
-class Starter(Protocol):
-    """Make nodes and take half-made ones back, for a launch and for programs."""
+class Keeper(Overview, Protocol):
+    """Know the nodes of the session, and run and destroy them."""
 
     @property
     def lives(self) -> Lives:
         """Return what runs nodes and destroys them."""
 
-    @property
-    def nodes(self) -> NodeRegistry:
-        """Return which nodes and entities there are."""
 
-    @property
-    def reports(self) -> Reporter:
-        """Return what records callbacks and faults, and prints what is new."""
+class Starter(Keeper, Protocol):
+    """Make nodes and take half-made ones back, for a launch and for programs."""
 
     @property
     def console(self) -> Console:
@@ -223,20 +223,8 @@ class Starter(Protocol):
         """Let nodes that are made in a block be started so, in a process of theirs."""
 
 
-class Spinner(Timekeeper, Protocol):
+class Spinner(Keeper, Timekeeper, Protocol):
     """Run the nodes for a cell that calls `rclpy.spin`, until it is interrupted."""
-
-    @property
-    def lives(self) -> Lives:
-        """Return what runs nodes and destroys them."""
-
-    @property
-    def nodes(self) -> NodeRegistry:
-        """Return which nodes and entities there are."""
-
-    @property
-    def reports(self) -> Reporter:
-        """Return what records callbacks and faults, and prints what is new."""
 
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it."""
