@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import rclpy
 from greenlet import greenlet
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32
@@ -441,3 +441,26 @@ def test_what_python_refuses_to_sleep_for_is_refused(ros, span):
     refused = ros.spawn(lambda: time.sleep(span))
     assert refused.returncode == 1
     assert refused.stderr.endswith(f"{real.typename}: {real.value}\n")
+
+
+class Rounds(Node):
+    """Has three timers that are due together, each of which sleeps, and a pool may run at once."""
+
+    def __init__(self):
+        super().__init__("rounds")
+        group = ReentrantCallbackGroup()
+        for seconds in (0.7, 0.9, 0.5):
+            self.create_timer(0.4, lambda s=seconds: time.sleep(s), group)
+
+
+def test_a_callback_that_sleeps_in_a_pool_is_known_until_it_returns():
+    """rclpy hands a task to a second thread of the pool while the first one runs it."""
+    before = threading.enumerate()
+    with Session() as session:
+        session.add(Rounds, threads=2)
+        session.run(2.25)
+        waits = session.observation().waits
+        asleep = [wait for wait in waits if wait.until_ns == 2_250_000_000]
+        assert len(asleep) == 2
+        assert len(threading.enumerate()) == len(before) + 2
+    assert threading.enumerate() == before

@@ -214,17 +214,22 @@ SPINS = {
 }  # fmt: skip
 
 
+def real_threads():
+    """The threads of this process that are no simulated ones, whose numbers are small."""
+    return [thread for thread in threading.enumerate() if thread.ident > 2**16]
+
+
 @pytest.mark.parametrize("name", SPINS)
 def test_a_program_that_spins_in_a_thread_runs(ros, program, capsys, name):
     rest, beats, code = SPINS[name]
-    before = threading.enumerate()
+    before = real_threads()
     text = THREADED.replace("    {rest}", indent(dedent(rest), "    "))
     threaded = ros.spawn(program(text))
     ros.run(1.6)
     assert [line.time for line in ros.logs()] == beats
     assert threaded.returncode == code
     assert ("tick" in capsys.readouterr().out) == (name == "rate")
-    assert [one for one in threading.enumerate() if one.ident > 2**16] == before
+    assert real_threads() == before
 
 
 STUBBORN = """

@@ -244,7 +244,9 @@ def watch_steps(original: Callable[..., None]) -> Callable[..., None]:
     def step(task: Task) -> None:
         engine = _engine_here()
         call: Call | None = task.__dict__.get("_rosbeat_call")
-        if engine is None or call is None or engine.current is call:
+        # A pool may be handed a task once more while another of its threads runs it; rclpy returns
+        # at once then, and the call goes on.
+        if engine is None or call is None or engine.current is call or task.executing():
             original(task)
             return
         caller = engine.current
