@@ -117,7 +117,7 @@ DEEDS = (
             "error = ValueError('a')\nfor n in range(100_000):\n    other = ValueError(str(n))\n"
             "    other.__context__ = other.__cause__ = error\n    error = other\nraise error"
         ),
-        words="RecursionError",
+        words="ValueError: 99999",
     ),
     Deed(
         "an exception group of many",

@@ -76,8 +76,8 @@ def test_the_second_part_lists_the_arguments():
     with pytest.raises(CallError) as told:
         viz.graph()
     assert told.value.means == "It needs `source`. It also takes `highlight` and `infrastructure`."
-    with pytest.raises(CallError) as told:
-        Session().run()
+    with Session() as ros, pytest.raises(CallError) as told:
+        ros.run()
     assert told.value.means == "It needs `seconds`. It also takes `quiet`."
     with pytest.raises(CallError) as told:
         progress("00")

@@ -231,6 +231,14 @@ class _Shell(InteractiveShell):
     def showtraceback(self, *_: object, **__: object) -> None:
         """Show nothing: nobody reads it, and to format an exception may take for ever."""
 
+    def set_custom_exc(self, *_: object) -> None:
+        """Let nobody else show an exception either, such as the course, which explains them."""
+        self.custom_exceptions = ()
+
+    def _format_exception_for_storage(self, *_: object, **__: object) -> dict[str, object]:
+        # IPython keeps each exception as it would show it; of a thousand calls, that takes seconds.
+        return {}
+
     def enable_gui(self, gui: object = None) -> None:
         """Open no windows: `%matplotlib inline` needs none."""
 
