@@ -10,7 +10,8 @@ DEEDS = (
     ),
     Deed("one number that is too large", before("x = 10 ** 10 ** 10"), words=""),
     Deed("output", before("while True:\n    print('x' * 100_000)"), words=""),
-    Deed("an exception of 100 MB", before("raise ValueError('x' * 100_000_000)"), words="memory"),
+    Deed("an exception of 100 MB", before("raise ValueError('x' * 100_000_000)"), words=""),
+    Deed("an exception of 10 GB", before("raise ValueError('x' * 10_000_000_000)"), words="emory"),
     Deed(
         "an exception that cannot be told",
         before("class Odd(Exception):\n    def __str__(self):\n        raise self\n\nraise Odd"),

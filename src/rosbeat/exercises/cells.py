@@ -27,7 +27,7 @@ Answer: TypeAlias = Any
 #: Stands for an answer that is not there; None is one that is.
 NOTHING: Answer = object()
 #: Characters of what a cell raised that are shown.
-_LONGEST = 200
+_LONGEST, _MOST_READ = 200, 10_000
 _HELD_AS = "_rosbeat_cells"
 _SAVE = re.compile(r"%%save\s+(\S+)")
 #: A prediction that nobody has made yet.
@@ -327,7 +327,8 @@ def _failure(error: BaseException, line: int) -> str:
     """Return what a cell raised, and in which of its lines."""
     if isinstance(error, RosbeatError):  # what it says is a sentence of its own
         return error.what.rstrip(".")
-    text = str(error).strip().split("\n")[0]
+    # Of an exception's text, which may be anything, a few lines are read.
+    text = str(error)[:_MOST_READ].strip().split("\n")[0]
     line = getattr(error, "lineno", None) or line
     said = re.fullmatch(r"(.*) \([^()]*, line (\d+)\)", text)
     if said:  # a SyntaxError, and ours for the text of a file, which has nothing but its text
