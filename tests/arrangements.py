@@ -2,6 +2,7 @@
 
 import copy
 import json
+import textwrap
 from functools import cache
 
 from bank.pages import ROOT
@@ -210,14 +211,73 @@ def notes_and_scratch_cells(number):
     return _each_answer(number, arrange)
 
 
+def pasted_twice(number):
+    return _each_answer(number, lambda cell, answer: [_filled(cell, answer), _code(answer)])
+
+
+def in_a_block(number):
+    """All that an answer defines stands in blocks, as people write who try something out."""
+
+    def arrange(cell, answer):
+        if not _is_python(answer):
+            return [_filled(cell, answer)]
+        block = textwrap.indent(answer, "    ", lambda line: bool(line.strip()))
+        return [_filled(cell, f"try:\n{block}\nfinally:\n    print('defined')")]
+
+    return _each_answer(number, arrange)
+
+
+def methods_added_in_the_next_cell(number):
+    """Each class gets its last method later, as page 12 itself does it."""
+
+    def arrange(cell, answer):
+        name = _checked_name(number, _role(cell, "exercise"))
+        head, mark, method = answer.rpartition("\n    def ")
+        title = method.partition("(")[0]
+        rest = ("\nclass ", "\n    async def ", "super()")
+        is_whole = mark and f"class {name}(" in head and not any(text in method for text in rest)
+        if not is_whole or title == "__init__" or "\n    @" in head[-30:]:
+            return [_filled(cell, answer)]
+        inner, _, outer = method.partition("\n\n\n")
+        function = textwrap.dedent(f"    def {inner}")
+        below = f"{function}\n\n{name}.{title} = {title}\n\n{outer}"
+        return [_filled(cell, head), _code(below)]
+
+    return _each_answer(number, arrange)
+
+
+def windows_line_endings(number):
+    # Commands of a terminal go through IPython as they are typed.
+    def arrange(cell, answer):
+        return [_filled(cell, answer.replace("\n", "\r\n") if _is_python(answer) else answer)]
+
+    return _each_answer(number, arrange)
+
+
+def tags_and_comments(number):
+    def arrange(cell, answer):
+        tagged = _filled(cell, f"{answer}\n# ____ done" if _is_python(answer) else answer)
+        tagged["metadata"] |= {"tags": ["mine"], "collapsed": True, "editable": True}
+        return [tagged]
+
+    return _each_answer(number, arrange)
+
+
 ARRANGEMENTS = {
     arrangement.__name__.replace("_", " "): arrangement
     for arrangement in (
         as_asked, in_a_new_cell_below, a_wrong_try_above, a_copy_of_an_old_try_at_the_bottom,
         a_split_cell, a_cell_between_answer_and_check, what_it_needs_above, another_name,
         without_metadata, without_checks, a_second_check, cells_merged, with_magics,
-        notes_and_scratch_cells,
+        notes_and_scratch_cells, pasted_twice, in_a_block, methods_added_in_the_next_cell,
+        windows_line_endings, tags_and_comments,
     )
+}  # fmt: skip
+#: What nbgrader gives other points for: it finds cells by what it has written into their metadata,
+#: and puts its own checks back. See docs/nbgrader.md.
+NOT_IN_NBGRADER = {
+    "a copy of an old try at the bottom", "a split cell", "without metadata", "another name",
+    "a second check",
 }  # fmt: skip
 #: Pages whose three answers have one name, so that one cell cannot hold them all.
 ONE_NAME = {"10"}
