@@ -203,6 +203,8 @@ def _grade_arguments(parser: argparse.ArgumentParser) -> None:
     add("--due", metavar="WHEN", help=_DUE)
     add("--late", metavar="RULE", help='what a late page loses: "10%%/day", or "20%%" (nothing)')
     add("--roster", type=Path, metavar="FILE", help=_ROSTER)
+    only = "judge again only this learner or exercise, as 03a; may be given several times"
+    add("--only", action="append", default=[], metavar="NAME", help=only)
     missing = "what who handed in nothing gets (zero)"
     add("--missing", choices=("zero", "empty"), default="zero", help=missing)
     add("--assignment", default="rosbeat", metavar="TITLE", help="its title on your platform")

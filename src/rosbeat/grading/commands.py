@@ -42,10 +42,10 @@ from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebo
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.release import Released, catches_up, release
 from rosbeat.grading.remarks import Remark
-from rosbeat.grading.results import summary, write_results
+from rosbeat.grading.results import RESULTS, summary, write_results
 from rosbeat.grading.review import review
 from rosbeat.grading.roster import with_dates, with_details
-from rosbeat.grading.run import Observe, Plan, Tell, grade
+from rosbeat.grading.run import Again, Observe, Plan, Tell, grade, named_again
 from rosbeat.grading.submissions import (
     Collection,
     HandedIn,
@@ -286,23 +286,29 @@ def run_grade(options: argparse.Namespace) -> int:
     found = with_dates(found, options.roster, options.due, options.late)
     pages = pages if options.lessons else handed_in(found, pages)
     pages = tuple(page for page in pages if page.wanted)
+    again = _again(options, found, pages)
     for line in (changes(options.out, typed), _UNSAFE * options.unsafe_no_sandbox):
         if line:
             print(line, file=sys.stderr)
     with alone_in(options.out, partial(print, file=sys.stderr, flush=True)):
-        return _grade_alone(options, found, pages, points, typed)
+        excuses, seed = options.missing == "empty", seed_of(options.out)
+        plan = Plan(pages, course_version(), points, seed, _solved(pages), excuses, again)
+        return _grade_alone(options, found, plan, typed)
 
 
-def _grade_alone(
-    options: argparse.Namespace,
-    found: Collection,
-    pages: tuple[CoursePage, ...],
-    points: Points,
-    typed: Typed,
-) -> int:
+def _again(options: argparse.Namespace, found: Collection, pages: Sequence[CoursePage]) -> Again:
+    """Return what is judged again, of a class that is graded already."""
+    if options.only and not (options.out / RESULTS).is_file():
+        raise GradingError(
+            f"{printable(str(options.out), 1000)} has no results yet.",
+            "`--only` judges a part of a class again; the others keep the marks that they have.",
+            "Grade the whole class first: the same command without `--only`.",
+        )
+    return named_again(options.only, found, pages)
+
+
+def _grade_alone(options: argparse.Namespace, found: Collection, plan: Plan, typed: Typed) -> int:
     """Judge a class, write all results and return the exit code, while nobody else does."""
-    excuses = options.missing == "empty"
-    plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages), excuses)
     judged = with_details(_judged(found, plan, options), found)
     gradebook = apply_manual(judged, read_manual(options.out / MANUAL))
     write_results(options.out, gradebook, options.assignment)
@@ -345,7 +351,8 @@ def _require_consistent(options: argparse.Namespace) -> None:
 
 def _judged(found: Collection, plan: Plan, options: argparse.Namespace) -> Gradebook:
     far = [0, 0]
-    with Ledger(options.out / LEDGER) as ledger, _progress(far) as tell:
+    takes_earlier = bool(options.only)
+    with Ledger(options.out / LEDGER, takes_earlier) as ledger, _progress(far) as tell:
         try:
             return grade(found, plan, ledger, _observer(options), tell)
         except KeyboardInterrupt:

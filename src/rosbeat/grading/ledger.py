@@ -3,7 +3,8 @@
 The file has a line of JSON for each answer, appended and synced to disk as soon as it is judged: a
 power failure loses only the answers that were being observed. Each line contains a digest of
 itself, so a damaged line is ignored, and its answer is judged again. The key of an answer covers
-everything that affects its outcome: its job, and the version of the course.
+everything that affects its outcome: the version of the course, and its job. Of several lines with
+one key, the last one counts: the answer was judged again.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ def course_version() -> str:
 
 def key_of(job: PageJob, version: str) -> str:
     """Return what a page is known by; an answer is known by that and its exercise."""
-    return sha256(f"{version}\n{to_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
+    digest = sha256(to_line(job).encode("utf-8", "backslashreplace")).hexdigest()
+    return f"{version}-{digest}"
 
 
 def seed_of(folder: Path) -> int:
@@ -104,15 +106,19 @@ class _Entry:
 class Ledger:
     """Keep outcomes by key, in a file; usable in a `with` block.
 
+    Args:
+        path: The file.
+        takes_earlier: Whether an answer that this version of the course has not judged has the
+            outcome that the last version gave it.
+
     Raises:
         GradingError: If it cannot be read or written.
     """
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._known: dict[str, Outcome] = {}
-        self._traces: dict[str, str] = {}
-        self._reaches: dict[str, tuple[str, ...]] = {}
+    def __init__(self, path: Path, takes_earlier: bool = False) -> None:
+        self._path, self._takes_earlier = path, takes_earlier
+        self._known: dict[str, tuple[Outcome, _Entry]] = {}
+        self._last: dict[str, str] = {}  # the key that an answer had last, without its version
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             self._file: BinaryIO = path.open("ab+")
@@ -131,15 +137,27 @@ class Ledger:
 
     def get(self, key: str) -> Outcome | None:
         """Return the outcome of an answer, if it has been judged."""
-        return self._known.get(key)
+        found = self._find(key)
+        return found[0] if found else None
 
     def trace(self, key: str) -> str:
         """Return the trace of an answer; empty if there is none."""
-        return self._traces.get(key, "")
+        found = self._find(key)
+        return found[1].trace if found else ""
 
     def reaches(self, key: str) -> tuple[str, ...]:
         """Return what the page of an answer has reached for, of what observes it."""
-        return self._reaches.get(key, ())
+        found = self._find(key)
+        return found[1].reaches if found else ()
+
+    def _find(self, key: str) -> tuple[Outcome, _Entry] | None:
+        if self._takes_earlier and key not in self._known:
+            key = self._last.get(key.partition("-")[2], "")
+        return self._known.get(key)
+
+    def _keep(self, entry: _Entry, outcome: Outcome) -> None:
+        self._known[entry.key] = outcome, entry
+        self._last[entry.key.partition("-")[2]] = entry.key
 
     def add(
         self,
@@ -161,7 +179,7 @@ class Ledger:
         Raises:
             GradingError: If it cannot be written.
         """
-        self._known[key], self._traces[key], self._reaches[key] = outcome, trace, reaches
+        self._keep(_Entry(key, trace, reaches), outcome)
         if not stays:
             return
         head: dict[str, object] = {"key": key}
@@ -187,9 +205,7 @@ class Ledger:
         try:
             body = _without_digest(line)
             entry = from_json(_Entry, body, "line")
-            self._known[entry.key] = from_json(Outcome, body, "outcome")
-            self._traces[entry.key] = entry.trace
-            self._reaches[entry.key] = entry.reaches
+            self._keep(entry, from_json(Outcome, body, "outcome"))
         except (ValueError, RecordError):
             return  # damaged, or of an older version: it is judged again
 

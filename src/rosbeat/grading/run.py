@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 
 from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.files import printable
@@ -29,6 +31,19 @@ Tell = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
+class Again:
+    """Say which answers are judged again although the ledger has their outcomes.
+
+    Attributes:
+        learners: Those whose answers are judged again, all of them.
+        exercises: Those whose answers are judged again, of all learners.
+    """
+
+    learners: frozenset[str] = frozenset()
+    exercises: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
 class Plan:
     """Say how a class is graded.
 
@@ -39,6 +54,7 @@ class Plan:
         seed: From what the inputs of scenarios are drawn; 0 on a page. See `ledger.seed_of`.
         solved: The same pages with the published solutions, as far as there are any.
         excuses: Whether a learner who handed in nothing gets no grade instead of 0 points.
+        again: What is judged again.
     """
 
     pages: tuple[CoursePage, ...]
@@ -47,6 +63,7 @@ class Plan:
     seed: int = 0
     solved: Mapping[str, tuple[Cell, ...]] = field(default_factory=dict)
     excuses: bool = False
+    again: Again = Again()
 
     def out_of(self, exercise: str) -> float:
         """Return what an exercise is worth."""
@@ -72,7 +89,7 @@ def grade(
         for each in collection.submissions
     ]
     jobs = _different_jobs([published, *by_learner], plan)
-    _judge_new(jobs, plan, ledger, observe, tell)
+    _judge_new(jobs, _keys_again(submitted, plan), ledger, observe, tell)
     learners = tuple(_graded(each, submitted, plan, ledger) for each in collection.submissions)
     solutions = tuple(
         Solution(answer.exercise, answer.source, ledger.trace(_key(page, answer.exercise, plan)))
@@ -119,36 +136,109 @@ def _different_jobs(
     return different
 
 
+def _keys_again(submitted: Pages, plan: Plan) -> frozenset[str]:
+    """Return what those answers are known by that are judged again."""
+    return frozenset(
+        _key(page, answer.exercise, plan)
+        for (learner, _), page in submitted.items()
+        for answer in page.answers
+        if learner in plan.again.learners or answer.exercise in plan.again.exercises
+    )
+
+
 def _judge_new(
     jobs: Sequence[Sequence[tuple[str, PageJob]]],
-    plan: Plan,
+    again: frozenset[str],
     ledger: Ledger,
     observe: Observe,
     tell: Tell,
 ) -> None:
-    todo = [[(key, job) for key, job in pages if _is_new(key, job, ledger)] for pages in jobs]
-    by_key = {key: job for pages in todo for key, job in pages}
-    total = sum(len(job.subjects) for pages in jobs for _, job in pages)
-    done = total - sum(len(job.subjects) for job in by_key.values())
+    """Judge the answers that the ledger does not have, and those that are judged again."""
+    by_key = {key: job for pages in jobs for key, job in pages}
+    todo = {
+        key: [
+            exercise
+            for exercise in job.subjects
+            if f"{key}/{exercise}" in again or ledger.get(f"{key}/{exercise}") is None
+        ]
+        for key, job in by_key.items()
+    }
+    total = sum(len(job.subjects) for job in by_key.values())
+    done = total - sum(map(len, todo.values()))
     tell(done, total)
-    if not by_key:
+    pages_to_run = [[(key, job) for key, job in pages if todo[key]] for pages in jobs]
+    if not any(pages_to_run):
         return
-    for key, page in observe([pages for pages in todo if pages]):
-        for exercise in by_key[key].subjects:
-            done += 1
-            if ledger.get(f"{key}/{exercise}") is not None:
-                continue  # whoever was stopped in the middle of the page has noted it
+    for key, page in observe([pages for pages in pages_to_run if pages]):
+        for exercise in todo[key]:
             evidence = page.exercises.get(exercise, Evidence(LOST))
             seed = by_key[key].seeds.get(exercise, 0)
             outcome, trace = judge_and_trace(EXERCISES[exercise], evidence, seed)
             # Who loses workers may have had bad luck; the next run tries that page again.
             stays = evidence.how != LOST
             ledger.add(f"{key}/{exercise}", outcome, stays, trace, page.remarks)
+        done += len(todo[key])
         tell(done, total)
 
 
-def _is_new(key: str, job: PageJob, ledger: Ledger) -> bool:
-    return any(ledger.get(f"{key}/{exercise}") is None for exercise in job.subjects)
+# What is judged again.
+
+
+def named_again(names: Iterable[str], collection: Collection, pages: Iterable[CoursePage]) -> Again:
+    """Return what somebody names to be judged again.
+
+    Args:
+        names: The id or the name of a learner, an exercise such as `03a`, or a page such as `03`.
+        collection: What the class handed in.
+        pages: The pages that count.
+
+    Raises:
+        GradingError: If a name is nobody's, or that of several learners.
+    """
+    ids = {each.learner for each in collection.submissions}
+    learners: dict[str, set[str]] = {}
+    for each in collection.submissions:
+        for name in (each.learner, each.name):
+            learners.setdefault(name.casefold(), set()).add(each.learner)
+    exercises: dict[str, set[str]] = {}
+    for page in pages:
+        for wanted in page.wanted:
+            for name in (wanted.exercise, page.number, page.lesson):
+                exercises.setdefault(name, set()).add(wanted.exercise)
+    found_learners: set[str] = set()
+    found_exercises: set[str] = set()
+    for name in names:
+        plain = name.strip().casefold()
+        who = {name} if name in ids else learners.get(plain, set())
+        if len(who) > 1:
+            raise _several(name, who)
+        if not who and plain not in exercises:
+            raise _nobody(name, [*learners, *exercises])
+        found_learners |= who
+        found_exercises |= exercises.get(plain, set())
+    return Again(frozenset(found_learners), frozenset(found_exercises))
+
+
+_UNCHANGED = "Nothing was judged again; all results are as they were."
+
+
+def _several(name: str, learners: Iterable[str]) -> GradingError:
+    ids = ", ".join(printable(learner) for learner in sorted(learners))
+    return GradingError(
+        f"{printable(name)!r} is the name of several learners.",
+        _UNCHANGED,
+        f"Name the learner by the id, as in the column `learner` of grades.csv: {ids}.",
+    )
+
+
+def _nobody(name: str, known: Sequence[str]) -> GradingError:
+    near = get_close_matches(name.strip().casefold(), known, 3, 0.5)
+    meant = f"Did you mean {' or '.join(map(printable, near))}? " if near else ""
+    return GradingError(
+        f"This class has neither a learner nor an exercise {printable(name)!r}.",
+        _UNCHANGED,
+        f"{meant}`grades.csv` has the ids of all learners, and all exercises.",
+    )
 
 
 # Marks.

@@ -16,10 +16,13 @@ from pathlib import Path
 
 import pytest
 
+from grading_files import BLANK, cell, notebook
 from parsed_html import Parsed
 from rosbeat import cli
 from rosbeat.errors import GradingError, StoppedError
+from rosbeat.exercises.exercise import FAILED
 from rosbeat.grading import commands
+from rosbeat.grading import run as run_module
 from rosbeat.grading.commands import (
     LAST_RUN,
     WAITS,
@@ -29,6 +32,7 @@ from rosbeat.grading.commands import (
 from rosbeat.grading.ledger import FILE
 from rosbeat.grading.lock import alone_in
 from rosbeat.grading.review import ReviewServer
+from rosbeat.records import Outcome
 from small_course import PAGES
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -454,6 +458,148 @@ def test_a_rejected_line_publishes_nothing_of_itself(typed, tmp_path):
     for path in (tmp_path / "out").rglob("*"):
         if path.is_file() and path.name != "manual.csv":
             assert b"SECRET" not in path.read_bytes(), path
+
+
+# Judging again.
+
+
+@pytest.fixture
+def judge(monkeypatch):
+    """Have the judge say something else from now on; the version of the course is another, too."""
+
+    def judge(text):
+        def say(exercise, *_):
+            return Outcome(exercise.id, FAILED, evidence=text, out_of=exercise.points), ""
+
+        monkeypatch.setattr(run_module, "judge_and_trace", say)
+        monkeypatch.setattr(commands, "course_version", lambda: f"version of {text}")
+
+    return judge
+
+
+@pytest.fixture
+def evidence(typed, tmp_path):
+    """Type `rosbeat grade`, and return the evidence of each answer."""
+
+    def evidence(*words):
+        typed(*words)
+        return {
+            f"{one['learner']} {mark['exercise']}": mark["evidence"]
+            for one in results(tmp_path)["learners"]
+            for mark in one["marks"]
+        }
+
+    return evidence
+
+
+@pytest.fixture
+def two_pages(course, tmp_path):
+    """Let ana hand in page 04, too."""
+    page = PAGES["04_listen"].replace("____", "self.listens = True")
+    (tmp_path / "class/ana/04_listen.ipynb").write_text(page)
+
+
+@pytest.mark.parametrize(
+    ("only", "again"),
+    [
+        (["ana"], {"ana 03a", "ana 04a"}),
+        ([" ANA"], {"ana 03a", "ana 04a"}),
+        (["03a"], {"ana 03a", "ben 03a"}),
+        (["03"], {"ana 03a", "ben 03a"}),
+        (["03_write"], {"ana 03a", "ben 03a"}),
+        (["ben", "04a"], {"ben 03a", "ana 04a"}),
+        (["ana", "ben"], {"ana 03a", "ana 04a", "ben 03a"}),
+    ],
+)
+def test_only_what_is_named_is_judged_again(two_pages, workers, judge, evidence, only, again):
+    judge("first")
+    first = evidence("--lessons", "03", "04")
+    jobs = len(workers.jobs)
+    judge("second")
+    words = [word for name in only for word in ("--only", name)]
+    second = evidence("--lessons", "03", "04", *words)
+    assert second.keys() == first.keys()
+    assert {key for key, text in second.items() if text == "second"} == again
+    assert len(workers.jobs) - jobs == len(again)
+    judge("third")  # what stands, stands again, whichever version has judged it
+    third = evidence("--lessons", "03", "04", "--only", "04a")
+    assert third == second | {"ana 04a": "third"}
+    judge("fourth")  # without the option, this version of the course judges everything
+    fourth = evidence("--lessons", "03", "04")
+    assert set(fourth.values()) == {"fourth", ""}  # ben has no page 04
+
+
+def test_of_a_page_only_the_exercise_that_is_named_is_judged_again(
+    course, workers, judge, evidence, tmp_path
+):
+    (tmp_path / "course/notebooks/03_write.ipynb").write_text(
+        notebook(
+            cell(BLANK, id="a", exercise="03a"),
+            cell(BLANK, id="b", exercise="03b"),
+            lesson="03_write",
+        )
+    )
+    judge("first")
+    assert set(evidence().values()) == {"first"}
+    judge("second")
+    found = evidence("--only", "03b")
+    assert found == {
+        "ana 03a": "first",
+        "ana 03b": "second",
+        "ben 03a": "first",
+        "ben 03b": "second",
+    }
+
+
+def test_what_was_handed_in_since_is_judged_as_well(judge, evidence, tmp_path):
+    judge("first")
+    evidence()
+    page = tmp_path / "class/ben/03_write.ipynb"
+    page.write_text(page.read_text().replace("'ben'", "'Ben'"))
+    judge("second")
+    (tmp_path / "class/cy").mkdir()
+    (tmp_path / "class/cy/03_write.ipynb").write_text(page.read_text().replace("Ben", "cy"))
+    assert evidence("--only", "03a", "--only", "ana") == dict.fromkeys(
+        ("ana 03a", "ben 03a", "cy 03a"), "second"
+    )
+    judge("third")
+    assert evidence("--only", "cy")["ana 03a"] == "second"
+
+
+@pytest.mark.parametrize(
+    ("name", "parts"),
+    [
+        ("anna", ("neither a learner nor an exercise 'anna'", "Did you mean ana?")),
+        ("03b", ("exercise '03b'", "Did you mean", "03a")),
+        ("04a", ("exercise '04a'", "Did you mean 03a")),  # nobody handed it in
+        ("\x1b[31m", ("u001b[31m'", "`grades.csv` has the ids")),
+        ("", ("exercise ''",)),
+        ("Kim", ("'Kim' is the name of several learners", "20008, 20028")),
+    ],
+)
+def test_a_name_of_nobody_or_of_several_is_refused(typed, tmp_path, says, name, parts):
+    for number in ("20008", "20028"):
+        folder = tmp_path / "class" / f"Kim_{number}_assignsubmission_file_"
+        folder.mkdir()
+        (folder / "03_write.ipynb").write_text(PAGES["03_write"])
+    (tmp_path / "class/ana").rename(tmp_path / "class/ana_1_assignsubmission_file_")
+    (tmp_path / "class/ben").rename(tmp_path / "class/ben_2_assignsubmission_file_")
+    typed()
+    before = files_of(tmp_path / "out")
+    with pytest.raises(GradingError) as caught:
+        typed("--only", "ben", "--only", name)
+    says(caught.value, *parts, "all results are as they were")
+    assert "\x1b" not in str(caught.value)
+    assert files_of(tmp_path / "out") == before
+    typed("--only", "ana", "--only", "20028")
+
+
+def test_a_class_without_results_is_graded_whole_first(workers, typed, tmp_path, says):
+    with pytest.raises(GradingError) as caught:
+        typed("--only", "ana")
+    says(caught.value, "has no results yet", "without `--only`")
+    assert not (tmp_path / "out").exists()
+    assert workers.jobs == []
 
 
 # Two at once.
