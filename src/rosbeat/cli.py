@@ -196,8 +196,9 @@ def _collect_arguments(parser: argparse.ArgumentParser) -> None:
 def _grade_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what is typed after `rosbeat grade`."""
     add = parser.add_argument
-    add("submissions", type=Path, metavar="SUBMISSIONS", help="a folder or a zip file")
-    add("--out", type=Path, required=True, metavar="GRADES", help="the folder for all results")
+    add("submissions", type=Path, metavar="SUBMISSIONS", help="a folder, a zip file, or a page")
+    out = "the folder for all results of a class; without, the result of one learner is printed"
+    add("--out", type=Path, metavar="GRADES", help=out)
     add("--lessons", nargs="+", default=(), metavar="PAGE", help="pages that count (default: any)")
     add("--points", type=Path, metavar="FILE", help=_POINTS)
     add("--due", metavar="WHEN", help=_DUE)
@@ -208,7 +209,12 @@ def _grade_arguments(parser: argparse.ArgumentParser) -> None:
     missing = "what who handed in nothing gets (zero)"
     add("--missing", choices=("zero", "empty"), default="zero", help=missing)
     add("--assignment", default="rosbeat", metavar="TITLE", help="its title on your platform")
-    add("--json", action="store_true", help="print the summary as JSON, for programs")
+    form = parser.add_mutually_exclusive_group()
+    forms = ("text", "json", "gradescope", "prairielearn")
+    what = "how the result is printed: for people, programs, or the platform of an autograder"
+    form.add_argument("--format", choices=forms, default="text", help=what)
+    said = "print the result as JSON, for programs"
+    form.add_argument("--json", dest="format", action="store_const", const="json", help=said)
     many = "answers at a time (default: one per processor)"
     add("--workers", type=_from(1), metavar="N", help=many)
     add("--scheduler", metavar="ADDRESS", help="a Dask cluster that observes, instead of --workers")

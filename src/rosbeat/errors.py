@@ -26,6 +26,7 @@
     ├── LessonError                 a lesson source breaks a rule of the builder
     ├── BagError                    a recording cannot be written, read, replayed or compared
     ├── GradingError                submissions cannot be collected, graded or reported
+    │   └── SubmissionError         what was handed in is nothing that can be graded
     ├── CallError                a function was called with arguments that it does not take
     ├── UnsupportedRclpyError       rclpy is of a distribution of ROS that the engine does not know
     ├── RecordError                 saved data that does not follow the schema
@@ -170,6 +171,10 @@ class BagError(RosbeatError):
 
 class GradingError(RosbeatError):
     """Signal that submissions cannot be collected, graded or reported."""
+
+
+class SubmissionError(GradingError):
+    """Signal that what was handed in is nothing that can be graded."""
 
 
 class CallError(RosbeatError):

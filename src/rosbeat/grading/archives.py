@@ -23,6 +23,7 @@ from pathlib import Path
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.files import printable
+from rosbeat.grading.platforms.base import NOTEBOOKS
 
 #: Bytes of one file that is read: a notebook with all its outputs, or a zip file.
 MOST_BYTES = 64_000_000
@@ -109,17 +110,21 @@ class Allowance:
 
 @contextmanager
 def open_upload(source: Path) -> Iterator[list[File]]:
-    """Open a folder or a zip file.
+    """Open a folder, a zip file, or a page.
 
     Yields:
         Its files, sorted by path. They can be read until the context ends; zip files among them
         are not opened, see `opened`.
 
     Raises:
-        GradingError: If `source` is neither.
+        GradingError: If `source` is none of them.
     """
     if source.is_dir():
         yield sorted(_files_of_folder(source), key=lambda one: one.parts)
+        return
+    if is_page(source):
+        place = source.resolve()
+        yield [replace(_file(place.parent, (place.name,)), parts=(source.name,))]
         return
     try:
         archive = zipfile.ZipFile(source)
@@ -127,11 +132,17 @@ def open_upload(source: Path) -> Iterator[list[File]]:
         found = "is not a zip file that can be read" if source.is_file() else "does not exist"
         raise GradingError(
             f"{printable(str(source), 1000)} {found}.",
-            "Submissions are a folder, or one zip file as a learning management system makes it.",
-            "Give the folder or the zip file that you downloaded.",
+            "Submissions are a folder, or one zip file as a learning management system makes it; a "
+            "single one may also be a page, an .ipynb file.",
+            "Give the folder or the zip file that you downloaded, or the page.",
         ) from error
     with archive:
         yield sorted(_files_of_zip(archive, ()), key=lambda one: one.parts)
+
+
+def is_page(source: Path) -> bool:
+    """Return whether a path is that of a file which may be a page, by its name."""
+    return source.is_file() and source.name.lower().endswith(NOTEBOOKS)
 
 
 def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:

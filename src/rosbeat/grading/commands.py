@@ -7,12 +7,13 @@ done, 2 usage error, 3 all results are written but something needs a person, 130
 from __future__ import annotations
 
 import argparse
+import os
 import shlex
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from io import StringIO
 from pathlib import Path
@@ -29,16 +30,24 @@ from rich.progress import (
 from rich.table import Table
 from rich.text import Text
 
-from rosbeat.errors import CommandError, GradingError, RecordError, StoppedError
+from rosbeat.errors import (
+    CommandError,
+    GradingError,
+    RecordError,
+    StoppedError,
+    SubmissionError,
+)
 from rosbeat.grading.files import printable, write_whole
 from rosbeat.grading.jobs import PageEvidence, PageJob
 from rosbeat.grading.ledger import FILE as LEDGER
-from rosbeat.grading.ledger import Ledger, course_version, seed_of
+from rosbeat.grading.ledger import Ledger, course_version, new_seed, seed_of
 from rosbeat.grading.lock import alone_in
 from rosbeat.grading.manual_marks import FILE as MANUAL
 from rosbeat.grading.manual_marks import apply_manual, read_manual
 from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
 from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
+from rosbeat.grading.one_submission import FORMS
+from rosbeat.grading.platforms.autograders import AUTOGRADERS
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.release import Released, catches_up, release
 from rosbeat.grading.remarks import Remark
@@ -58,8 +67,8 @@ from rosbeat.records_json import from_json, to_json
 from rosbeat.viz.text_format import count
 from rosbeat.workspace.location import course_root
 
-#: Exit code: all is written, and something waits for a person.
-WAITS = 3
+#: Exit codes: nothing was done; all is written, and something waits for a person.
+NOTHING_DONE, WAITS = 1, 3
 #: Names that are printed of a list.
 _MOST_NAMED = 20
 
@@ -257,12 +266,14 @@ _UNSAFE = (
     "Warning: --unsafe-no-sandbox lets strangers' programs do here whatever you may do: read and\n"
     "change your files, use the network. Only limits on time and memory are left."
 )
+#: How what came of one submission is printed.
+_FORMS = {**FORMS, **AUTOGRADERS}
 #: Remarks about a line that somebody wrote.
 _FOR_A_PERSON = ("manual", "roster")
 
 
 def run_grade(options: argparse.Namespace) -> int:
-    """Grade what was handed in, and write all results.
+    """Grade what was handed in, by a class or by one learner, and write all results.
 
     Returns:
         The exit code: 0, or `WAITS`.
@@ -274,26 +285,79 @@ def run_grade(options: argparse.Namespace) -> int:
         StoppedError: If a person stops it.
     """
     _require_consistent(options)
-    require_apart(options.submissions, options.out)
+    if options.out:
+        require_apart(options.submissions, options.out)
     every = course_pages(find_checkout() / "notebooks")
     pages = choose_pages(every, options.lessons)
     typed = _deciding(options, pages)
     points = read_points(options.points) if options.points else Points()
-    read_manual(options.out / MANUAL)  # what is refused, is refused before anything is judged
-    # With all pages: what is another page must not be taken for one of those that count.
-    found = collect(options.submissions, every)
-    require_submissions(options.submissions, found)
-    found = with_dates(found, options.roster, options.due, options.late)
+    if options.out:
+        read_manual(options.out / MANUAL)  # what is refused, is refused before anything is judged
+    found = _collected(options, every)
     pages = pages if options.lessons else handed_in(found, pages)
     pages = tuple(page for page in pages if page.wanted)
-    again = _again(options, found, pages)
-    for line in (changes(options.out, typed), _UNSAFE * options.unsafe_no_sandbox):
-        if line:
-            print(line, file=sys.stderr)
+    plan = Plan(pages, course_version(), points, excuses=options.missing == "empty")
+    if not options.out and not found.is_one:
+        raise CommandError(
+            "--out is missing.",
+            f"{count(len(found.submissions), 'learner')} handed in here, and the results of a "
+            "class go into a folder.",
+            "Name a folder for them:  --out ~/class/grades",
+        )
+    if options.unsafe_no_sandbox:
+        print(_UNSAFE, file=sys.stderr)
+    if options.out:
+        plan = replace(plan, again=_again(options, found, pages), solved=_solved(pages))
+        return _grade_into(options, found, plan, typed)
+    book = _judged(found, replace(plan, seed=new_seed()), Ledger(None), options)
+    code = WAITS if _waiting(book) else 0
+    print(_FORMS[options.format].result(book, code))
+    return code
+
+
+def _collected(options: argparse.Namespace, pages: Sequence[CoursePage]) -> Collection:
+    """Return what was handed in; whatever an autograder's platform gives is one learner's.
+
+    Args:
+        options: What was typed.
+        pages: All of the course: another page must not be taken for one of those that count.
+    """
+    found = collect(options.submissions, pages, options.format in AUTOGRADERS)
+    try:
+        require_submissions(options.submissions, found)
+    except SubmissionError as error:
+        # A program, or a learner on the platform of an autograder, reads no error message.
+        refusal = _FORMS[options.format].refusal(error, NOTHING_DONE)
+        print(refusal, end="\n" if refusal else "")
+        raise
+    return with_dates(found, options.roster, options.due, options.late)
+
+
+def _grade_into(options: argparse.Namespace, found: Collection, plan: Plan, typed: Typed) -> int:
+    """Judge a class, write all results and return the exit code, while nobody else does."""
+    changed = changes(options.out, typed)
+    print(changed, file=sys.stderr, end="\n" if changed else "")
     with alone_in(options.out, partial(print, file=sys.stderr, flush=True)):
-        excuses, seed = options.missing == "empty", seed_of(options.out)
-        plan = Plan(pages, course_version(), points, seed, _solved(pages), excuses, again)
-        return _grade_alone(options, found, plan, typed)
+        ledger = Ledger(options.out / LEDGER, takes_earlier=bool(options.only))
+        plan = replace(plan, seed=seed_of(options.out))
+        judged = with_details(_judged(found, plan, ledger, options), found)
+        gradebook = apply_manual(judged, read_manual(options.out / MANUAL))
+        write_results(options.out, gradebook, options.assignment)
+        note_options(options.out, typed)
+        code = WAITS if _waiting(gradebook) else 0
+        print(_told_of(gradebook, found, options, code))
+        if options.review:
+            write = partial(write_results, options.out, assignment=options.assignment)
+            review(options.out, judged, write)
+        return code
+
+
+def _told_of(book: Gradebook, found: Collection, options: argparse.Namespace, code: int) -> str:
+    if found.is_one and len(book.learners) == 1:  # a roster may have brought others
+        return _FORMS[options.format].result(book, code)
+    if options.format == "json":
+        return _summary_json(book, options.out, code)
+    return summary(book, options.out)
 
 
 def _again(options: argparse.Namespace, found: Collection, pages: Sequence[CoursePage]) -> Again:
@@ -305,22 +369,6 @@ def _again(options: argparse.Namespace, found: Collection, pages: Sequence[Cours
             "Grade the whole class first: the same command without `--only`.",
         )
     return named_again(options.only, found, pages)
-
-
-def _grade_alone(options: argparse.Namespace, found: Collection, plan: Plan, typed: Typed) -> int:
-    """Judge a class, write all results and return the exit code, while nobody else does."""
-    judged = with_details(_judged(found, plan, options), found)
-    gradebook = apply_manual(judged, read_manual(options.out / MANUAL))
-    write_results(options.out, gradebook, options.assignment)
-    note_options(options.out, typed)
-    code = WAITS if _waiting(gradebook) else 0
-    said = _summary_json(gradebook, options.out, code) if options.json else ""
-    print(said or summary(gradebook, options.out))
-    if options.review:
-        review(
-            options.out, judged, partial(write_results, options.out, assignment=options.assignment)
-        )
-    return code
 
 
 def _solved(pages: Iterable[CoursePage]) -> dict[str, tuple[Cell, ...]]:
@@ -341,6 +389,13 @@ def _require_consistent(options: argparse.Namespace) -> None:
             "Without a sandbox, strangers' programs could reach every machine of the cluster.",
             "Leave out one of them.",
         )
+    needing = [name for name in ("roster", "only", "review") if getattr(options, name)]
+    if needing and not options.out:
+        raise CommandError(
+            f"--{needing[0]} needs --out.",
+            "It concerns a class, whose results are in a folder.",
+            "Name that folder:  --out ~/class/grades",
+        )
     if options.late and not options.due:
         raise CommandError(
             "--late needs --due.",
@@ -349,19 +404,21 @@ def _require_consistent(options: argparse.Namespace) -> None:
         )
 
 
-def _judged(found: Collection, plan: Plan, options: argparse.Namespace) -> Gradebook:
+def _judged(
+    found: Collection, plan: Plan, ledger: Ledger, options: argparse.Namespace
+) -> Gradebook:
     far = [0, 0]
-    takes_earlier = bool(options.only)
-    with Ledger(options.out / LEDGER, takes_earlier) as ledger, _progress(far) as tell:
+    with ledger, _progress(far) as tell:
         try:
             return grade(found, plan, ledger, _observer(options), tell)
         except KeyboardInterrupt:
             kept = f"{far[0] or 'None'} of {far[1]} answers are judged and kept"
             means = f"{kept}; the results are as they were before."
+            goes_on = "Type the same command again, with the same options: it goes on from there."
+            if not options.out:
+                means, goes_on = "Without --out, nothing is kept.", "Type the command again."
             raise StoppedError(
-                "stopped.",
-                means if far[1] else "Nothing was judged.",
-                "Type the same command again, with the same options: it goes on from there.",
+                "stopped.", means if far[1] else "Nothing was judged.", goes_on
             ) from None
 
 
@@ -391,14 +448,15 @@ def _observer(options: argparse.Namespace) -> Observe:
     """Return what has jobs done; workers start only if there is something to do."""
 
     def observe(
-        submissions: Iterable[Sequence[tuple[str, PageJob]]],
+        submissions: Sequence[Sequence[tuple[str, PageJob]]],
     ) -> Iterator[tuple[str, PageEvidence]]:
         if options.scheduler:
             from rosbeat.grading.cluster import Cluster  # it needs Dask, which few have
 
             made: Cluster | Pool = Cluster(options.scheduler)
         else:
-            made = Pool(options.workers, options.unsafe_no_sandbox)
+            most = min(os.cpu_count() or 1, len(submissions))
+            made = Pool(options.workers or most, options.unsafe_no_sandbox)
         with made as pool:
             yield from pool.observe(submissions)
 

@@ -48,6 +48,35 @@ def with_owners(files: Sequence[File]) -> Owned:
     return Owned(tuple(owned), tuple(remarks))
 
 
+def is_of_one(files: Sequence[File]) -> bool:
+    """Return whether pages are directly in what was handed in, so that one learner has all of it.
+
+    They are not if a platform has named any of them, or if there are folders with pages or zip
+    files beside them: those are learners.
+    """
+    tried = [file for file in files if file.is_zip or _may_be_page(file.parts[-1])]
+    platforms = platforms_of(files)
+    return bool(tried) and not any(
+        len(file.parts) > 1 or file.is_zip or _is_named(file.parts, platforms) for file in tried
+    )
+
+
+def with_one_owner(files: Sequence[File], learner: str) -> Owned:
+    """Return that all files are one learner's; pages count that lie in the outermost folder."""
+    pages = [file for file in files if file.parts[-1].lower().endswith(NOTEBOOKS[0])]
+    level = min((len(file.parts) for file in pages), default=0)
+    inner = [file for file in pages if len(file.parts) > level]
+    text = "It is in a folder below the pages that were handed in, so it does not count."
+    return Owned(
+        tuple(
+            (Owner(learner, learner, "/".join(file.parts), "folder"), file)
+            for file in files
+            if file not in inner
+        ),
+        tuple(Remark("left-out", file.path, text) for file in inner),
+    )
+
+
 def _is_named(parts: tuple[str, ...], platforms: Sequence[Platform]) -> bool:
     """Return whether a platform made a name in a path."""
     named = [platform for platform in platforms if not platform.has_free_names]

@@ -69,12 +69,17 @@ def seed_of(folder: Path) -> int:
         raise _trouble(path, error) from error
 
 
+def new_seed() -> int:
+    """Return a seed that nobody can foresee."""
+    return secrets.randbits(_BITS) or 1
+
+
 def _make_seed(path: Path) -> None:
     """Make the file whole; of two runs that begin at once, one makes it."""
     made = path.with_name(f".{path.name}-{os.getpid()}")
     handle = os.open(made, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
     with os.fdopen(handle, "w", encoding="ascii") as file:
-        file.write(f"{secrets.randbits(_BITS)}\n")
+        file.write(f"{new_seed()}\n")
     try:
         os.link(made, path)
     except FileExistsError:
@@ -107,7 +112,7 @@ class Ledger:
     """Keep outcomes by key, in a file; usable in a `with` block.
 
     Args:
-        path: The file.
+        path: The file; None keeps outcomes as long as the ledger is open.
         takes_earlier: Whether an answer that this version of the course has not judged has the
             outcome that the last version gave it.
 
@@ -115,22 +120,26 @@ class Ledger:
         GradingError: If it cannot be read or written.
     """
 
-    def __init__(self, path: Path, takes_earlier: bool = False) -> None:
+    def __init__(self, path: Path | None, takes_earlier: bool = False) -> None:
         self._path, self._takes_earlier = path, takes_earlier
         self._known: dict[str, tuple[Outcome, _Entry]] = {}
         self._last: dict[str, str] = {}  # the key that an answer had last, without its version
+        self._file: BinaryIO | None = None
+        if path is None:
+            return
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._file: BinaryIO = path.open("ab+")
-            self._read()
+            self._file = path.open("ab+")
+            self._read(self._file)
         except OSError as error:
-            raise _trouble(self._path, error) from error
+            raise _trouble(path, error) from error
 
     def __enter__(self) -> Ledger:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
+        if self._file is not None:
+            self._file.close()
 
     def __len__(self) -> int:
         return len(self._known)
@@ -180,7 +189,7 @@ class Ledger:
             GradingError: If it cannot be written.
         """
         self._keep(_Entry(key, trace, reaches), outcome)
-        if not stays:
+        if not stays or self._file is None or self._path is None:
             return
         head: dict[str, object] = {"key": key}
         head |= {"trace": trace} if trace else {}
@@ -193,13 +202,13 @@ class Ledger:
         except OSError as error:
             raise _trouble(self._path, error) from error
 
-    def _read(self) -> None:
-        self._file.seek(0)
-        data = self._file.read()
+    def _read(self, file: BinaryIO) -> None:
+        file.seek(0)
+        data = file.read()
         for line in data.splitlines():
             self._take(line)
         if data and not data.endswith(b"\n"):  # somebody pulled the plug in the middle of a line
-            self._file.write(b"\n")
+            file.write(b"\n")
 
     def _take(self, line: bytes) -> None:
         try:

@@ -25,7 +25,7 @@ from rosbeat.grading.submitted_page import NOT_THERE, Answer, SubmittedPage, sub
 from rosbeat.records import Outcome
 
 #: Has the pages of submissions run, and gives evidence as it comes.
-Observe = Callable[[Iterable[Sequence[tuple[str, PageJob]]]], Iterator[tuple[str, PageEvidence]]]
+Observe = Callable[[Sequence[Sequence[tuple[str, PageJob]]]], Iterator[tuple[str, PageEvidence]]]
 #: Is told how many answers are judged, of how many; first, how many were judged in earlier runs.
 Tell = Callable[[int, int], None]
 

@@ -11,10 +11,17 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 from pathlib import Path
 
-from rosbeat.errors import GradingError
-from rosbeat.grading.archives import EMPTY_FOLDER, OTHER_ARCHIVES, Allowance, File, open_upload
+from rosbeat.errors import GradingError, SubmissionError
+from rosbeat.grading.archives import (
+    EMPTY_FOLDER,
+    OTHER_ARCHIVES,
+    Allowance,
+    File,
+    is_page,
+    open_upload,
+)
 from rosbeat.grading.archives import opened as opened_file
-from rosbeat.grading.downloads import with_owners
+from rosbeat.grading.downloads import is_of_one, with_one_owner, with_owners
 from rosbeat.grading.files import printable
 from rosbeat.grading.notebook import CoursePage, Notebook, read_notebook, which_page
 from rosbeat.grading.platforms import own_path, platform_named
@@ -77,30 +84,47 @@ class Submission:
 
 @dataclass(frozen=True)
 class Collection:
-    """Hold what a class handed in."""
+    """Hold what a class handed in.
+
+    Attributes:
+        submissions: One for each learner, sorted by `learner`.
+        remarks: About files that are nobody's.
+        is_one: Whether it is no class, but the pages of one learner.
+    """
 
     submissions: tuple[Submission, ...]
     remarks: tuple[Remark, ...] = ()
+    is_one: bool = False
 
 
-def collect(source: Path, pages: Sequence[CoursePage]) -> Collection:
+def collect(source: Path, pages: Sequence[CoursePage], is_one: bool = False) -> Collection:
     """Find out who handed in what.
 
     Args:
         source: A folder or a zip file: a folder or a zip file for each learner, or what a learning
-            platform lets an instructor download.
+            platform lets an instructor download. Or the pages of one learner: a file, or a folder
+            or zip file with pages directly in it.
         pages: The pages of the course.
+        is_one: Whether all of it is one learner's in any case, however the folders are called.
 
     Raises:
-        GradingError: If `source` is neither a folder nor a zip file.
+        GradingError: If `source` is nothing of this.
     """
     with open_upload(source) as files:
-        owned = with_owners(files)
+        is_one = is_one or is_page(source) or is_of_one(files)
+        owned = with_one_owner(files, _owner_of(source)) if is_one else with_owners(files)
         submissions = tuple(
             _submission(list(group), pages)
             for _, group in groupby(owned.files, lambda pair: pair[0].id)
         )
-    return Collection(submissions, owned.remarks)
+    return Collection(submissions, owned.remarks, is_one)
+
+
+def _owner_of(source: Path) -> str:
+    """Return the name of a learner's folder or zip file, or of the folder that a page is in."""
+    place = source.resolve()
+    name = place.parent.name if is_page(source) else place.name.removesuffix(".zip")
+    return name or "learner"
 
 
 # What one learner handed in.
@@ -230,10 +254,14 @@ def require_submissions(source: Path, found: Collection) -> None:
 
     Raises:
         GradingError: If it is a release, or there is neither a page nor an attempt at one.
+        SubmissionError: If it is the submission of one learner, and no page of it can be read.
     """
     name = printable(str(source), 1000)
     if (source / MARKER).is_file():
         raise GradingError(f"{name} is what learners get, a release.", _MEANS, _TRY)
+    if found.is_one:
+        _require_page(name, found)
+        return
     if any(one.pages or one.unread for one in found.submissions):
         return
     remarks = [*found.remarks, *(one for each in found.submissions for one in each.remarks)]
@@ -241,6 +269,22 @@ def require_submissions(source: Path, found: Collection) -> None:
     if remarks:
         why = f"no file of it is a page of this course. {remarks[0].path}: {remarks[0].text}"
     raise GradingError(f"{name} has no submission in it: {why}", _MEANS, _TRY)
+
+
+def _require_page(name: str, found: Collection) -> None:
+    pages = [page for each in found.submissions for page in each.pages]
+    if any(not page.notebook.problem for page in pages):
+        return
+    remarks = [*(one for each in found.submissions for one in each.remarks), *found.remarks]
+    why = "it is empty."
+    if remarks:
+        text = f"{remarks[0].text[:1].lower()}{remarks[0].text[1:]}"
+        why = text if name.endswith(remarks[0].path) else f"{remarks[0].path}: {text}"
+    raise SubmissionError(
+        f"{name} cannot be graded: {why}",
+        "No page of this course can be read there, so no exercise was judged.",
+        "Save the page in Jupyter, and hand in that file, such as 03_write_a_publisher.ipynb.",
+    )
 
 
 def require_apart(source: Path, out: Path) -> None:
