@@ -28,7 +28,7 @@ DOCUMENTS = {
     "Your own nodes": ("docs/testing.md",),
     "For instructors": (
         "docs/course_design.md", "docs/instructors.md", "docs/teaching.md", "docs/jupyterhub.md",
-        "docs/nbgrader.md",
+        "docs/autograders.md", "docs/nbgrader.md",
         "docs/sandbox.md", "docs/mistakes.md",
     ),
     "For contributors": (

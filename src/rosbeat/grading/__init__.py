@@ -1,4 +1,4 @@
-"""Grade a class's submissions: read them, run them in sandboxes, judge them outside, report.
+"""Grade submissions: read them, run them in sandboxes, judge them outside, report.
 
 `docs/architecture.md` follows one answer through the whole pipeline. `commands` contains the entry
 points of `rosbeat release`, `collect` and `grade`.
@@ -12,6 +12,7 @@ points of `rosbeat release`, `collect` and `grade`.
 - Judging: `judging`, `ledger` (judged answers, so that a run can resume).
 - Marks: `marks` (with what exercises are worth), `manual_marks` (points given by hand), `results`,
   `csv_exports` (the table of all marks), `groups`, `lock` (one run at a time in a folder).
+- One submission: `one_submission` (for people and programs) and `platforms.autograders`.
 - Reports: `report`, `feedback`, `traces`, `rendering` with `templates/`, and `review` (the page on
   which an instructor marks by eye).
 - For the class: `release` creates the folder that learners get. `class_folder` reads what learners

@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import signal
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from graded_classes import HOSTILE, hostile_learner, mark
 from grading_files import cell, notebook, zipped
 from rosbeat import cli
 from rosbeat.errors import CommandError, StoppedError
+from rosbeat.grading import commands
 from rosbeat.grading.commands import WAITS
 from rosbeat.grading.jobs import LOST, Evidence, PageEvidence
 from rosbeat.grading.marks import Gradebook, Graded
@@ -439,7 +441,74 @@ def test_the_json_is_documented():
     assert kinds["submission"]["properties"]["version"]["const"] == VERSION
 
 
+@pytest.fixture
+def files():
+    """The files that instructors copy from the page about autograders, by name."""
+    text = (ROOT / "docs/autograders.md").read_text("utf-8")
+    found = {}
+    for kind, body in re.findall(r"(?ms)^```(\w+)\n(.*?)^```$", text):
+        named = re.search(r"(?m)^# ([\w.]+): ", body)
+        found[named[1] if named else kind] = body
+    return found
+
+
+def test_the_files_to_copy_are_whole(files):
+    scripts = ("setup.sh", "run_autograder", "grade.sh")
+    for name in scripts:
+        assert files[name].startswith("#!/usr/bin/env bash\n")
+        done = subprocess.run(["bash", "-n"], input=files[name], text=True, capture_output=True)
+        assert (done.returncode, done.stderr) == (0, "")
+    options = json.loads(files["json"])["externalGradingOptions"]
+    assert options["entrypoint"] == "/grade/tests/grade.sh"
+    assert options["timeout"] <= 600  # what PrairieLearn allows
+    (page,) = (ROOT / "notebooks").glob("03_*.ipynb")
+    assert f'file-names="{page.name}"' in files["html"]
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "result"),
+    [
+        ("run_autograder", "gradescope", "results/results.json"),
+        ("grade.sh", "prairielearn", "/grade/results/results.json"),
+    ],
+)
+def test_the_files_to_copy_type_what_the_command_knows(files, name, form, result):
+    (typed,) = re.findall(r"bin/rosbeat (grade .*)", files[name].replace("\\\n", " "))
+    words, _, target = typed.partition(" > ")
+    options = cli._parser().parse_args(words.split())
+    assert (options.format, options.lessons) == (form, ["03"])
+    assert options.unsafe_no_sandbox
+    assert target == result
+
+
+@pytest.mark.parametrize("name", ["setup.sh", "Dockerfile.prairielearn"])
+def test_the_folders_that_are_closed_to_pages_are_those_of_the_checkout(files, name):
+    (folders,) = re.findall(r"chmod -R go= (.*)", files[name].replace("\\\n", " "))
+    assert "solutions" in folders.split()
+    for folder in folders.split():
+        # `course prepare` makes the learner's folder.
+        assert folder == "my_course" or (ROOT / folder).is_dir(), folder
+
+
 # For real.
+
+
+def test_a_page_without_a_sandbox_is_another_user_than_root(capsys, tmp_path):
+    (page,) = (ROOT / "solutions").glob("03_*.ipynb")
+    document = json.loads(page.read_text("utf-8"))
+    for one in document["cells"]:
+        if one["metadata"].get("rosbeat", {}).get("exercise") == "03a":
+            one["source"] = (
+                'import os\nraise RuntimeError(f\'user {os.getuid()} {open("x", "w")}\')'
+            )
+    (tmp_path / page.name).write_text(json.dumps(document), "utf-8")
+    words = ["grade", str(tmp_path), "--json", "--unsafe-no-sandbox"]
+    assert cli.main(words) == WAITS  # it shows that it has passed
+    evidence = json.loads(capsys.readouterr().out)["exercises"][0]["evidence"]
+    (user,) = re.findall(r"user (\d+) <", evidence)
+    places = (Path(os.__file__), Path(commands.__file__))
+    open_to_all = all(one.stat().st_mode & 1 for place in places for one in place.parents)
+    assert (int(user) == os.getuid()) is (os.getuid() != 0 or not open_to_all)
 
 
 @pytest.mark.parametrize("form", ["json", "gradescope", "prairielearn"])
