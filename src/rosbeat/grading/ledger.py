@@ -160,8 +160,9 @@ class Ledger:
         return found[1].reaches if found else ()
 
     def _find(self, key: str) -> tuple[Outcome, _Entry] | None:
-        if self._takes_earlier and key not in self._known:
-            key = self._last.get(key.partition("-")[2], "")
+        answer = key.partition("-")[2]
+        if self._takes_earlier and answer and key not in self._known:
+            key = self._last.get(answer, "")
         return self._known.get(key)
 
     def _keep(self, entry: _Entry, outcome: Outcome) -> None:

@@ -37,6 +37,34 @@ def test_half_a_line_at_the_end_costs_that_line_only(path):
     assert kept(path) == {"a": OUTCOME, "c": OUTCOME}
 
 
+def test_an_answer_may_keep_what_another_version_of_the_course_said(path):
+    old, new = key_of(JOB, "1"), key_of(JOB, "2")
+    other = key_of(replace(JOB, page="04"), "2")
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME)
+        ledger.add(old, replace(OUTCOME, points=2), trace="trace", reaches=("x",))
+        ledger.add(old, OUTCOME, trace="second", reaches=("y",))  # it was judged again
+    with Ledger(path) as ledger:
+        assert ledger.get(new) is None
+    with Ledger(path, takes_earlier=True) as ledger:
+        assert (ledger.get(new), ledger.trace(new), ledger.reaches(new)) == (
+            OUTCOME, "second", ("y",)
+        )  # fmt: skip
+        assert ledger.get(other) is None
+        assert ledger.get("") is None
+        ledger.add(new, replace(OUTCOME, points=2))
+        assert ledger.get(new) == replace(OUTCOME, points=2)
+        assert ledger.get(old) == OUTCOME
+
+
+def test_without_a_file_outcomes_are_kept_as_long_as_it_is_open(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with Ledger(None) as ledger:
+        ledger.add("a", OUTCOME, trace="trace")
+        assert (ledger.get("a"), ledger.trace("a"), len(ledger)) == (OUTCOME, "trace", 1)
+    assert not list(tmp_path.iterdir())
+
+
 def damaged(data):
     """What may become of a file: cut at any place, one bit of any byte turned, a piece missing."""
     for place in range(0, len(data), 7):
