@@ -42,7 +42,7 @@ MAY_IMPORT = {
     "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis", "inspection"},
     "new_command": {"errors"},
-    "check_command": {"errors", "records_json", "authoring", "exercises"},
+    "check_command": {"errors", "records_json", "exercises", "grading", "workspace"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
     # The import of page 07 in release 0.1.0.
     "scenarios": {"ros"},

@@ -120,7 +120,7 @@ class Cells:
             exercise: The exercise's id.
         """
         self.worked_on = exercise
-        expression = _answer_in(self._begun[0], exercise) if self._begun else None
+        expression = answer_in(self._begun[0], exercise) if self._begun else None
         if expression is not None:
             self._handed[exercise] = expression
 
@@ -275,7 +275,7 @@ def checks_in(source: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name.lower() for name in _CHECK.findall(source)))
 
 
-def _answer_in(source: str, exercise: str) -> ast.expr | None:
+def answer_in(source: str, exercise: str) -> ast.expr | None:
     """Return what a cell hands to `check` as the answer to an exercise; None if that is not clear.
 
     Args:

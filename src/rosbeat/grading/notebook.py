@@ -9,10 +9,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from rosbeat.errors import GradingError
+from rosbeat.exercises.cells import checks_in
 from rosbeat.exercises.outcome_display import MIME
 
 #: Cells of a notebook that are looked at; a page has fewer than fifty.
@@ -46,6 +48,11 @@ class Cell:
     check: str = ""
     shows: bool = False
     stored: tuple[tuple[str, str], ...] = ()
+
+    @cached_property
+    def checked(self) -> tuple[str, ...]:
+        """Return the exercises that it checks, in order."""
+        return checks_in(self.source) if self.sort == "code" else ()
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,11 @@ import ast
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from hashlib import sha256
 
-from rosbeat.exercises.cells import checks_in
+from rosbeat.exercises.cells import answer_in
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.jobs import PageCell, PageJob
 from rosbeat.grading.notebook import Cell, CoursePage
@@ -75,20 +75,33 @@ def submitted_page(page: CoursePage, cells: Sequence[Cell], secret: int = 0) -> 
     answers = tuple(_answer(page, exercise, cells) for exercise in exercises)
     if not exercises or [cell.source for cell in code] == released:
         return SubmittedPage(None, answers)
-    run = _to_run(page, code)
     digest = _digest(code)
-    job = PageJob(
-        page.number,
-        run,
-        {exercise: subject_of(page, exercise) for exercise in exercises},
-        {exercise: _seed(secret, digest, exercise) for exercise in exercises},
-        {
-            exercise: json.dumps(EXERCISES[exercise].given(), sort_keys=True)
-            for exercise in exercises
-        },
-        any(_IN_WORKSPACE.search(cell.source) for cell in run),
-    )
-    return SubmittedPage(job, answers)
+    subjects = {exercise: subject_of(page, exercise) for exercise in exercises}
+    seeds = {exercise: _seed(secret, digest, exercise) for exercise in exercises}
+    job = _job(page.number, _to_run(page, code), subjects)
+    return SubmittedPage(replace(job, seeds=seeds), answers)
+
+
+def own_page(number: str, code: Sequence[Cell], subjects: Mapping[str, str]) -> PageJob:
+    """Return how a learner's own page is run: all of its code, with the inputs of a page.
+
+    Args:
+        number: The page's two digits.
+        code: Its code cells.
+        subjects: The expression that is checked for each exercise, such as `HumiditySensor`.
+    """
+    return _job(number, [_page_cell(cell, {}) for cell in code], subjects)
+
+
+def _job(number: str, cells: Sequence[PageCell], subjects: Mapping[str, str]) -> PageJob:
+    given = {name: json.dumps(EXERCISES[name].given(), sort_keys=True) for name in subjects}
+    needs_files = any(_IN_WORKSPACE.search(cell.source) for cell in cells)
+    return PageJob(number, tuple(cells), subjects, dict.fromkeys(subjects, 0), given, needs_files)
+
+
+def _page_cell(cell: Cell, wanted: Mapping[str, str]) -> PageCell:
+    exercise = cell.exercise or wanted.get(cell.id, "")
+    return PageCell(cell.source, cell.place, exercise, cell.checked)
 
 
 # What is drawn for a page.
@@ -114,10 +127,13 @@ def _seed(secret: int, digest: str, exercise: str) -> int:
 def subject_of(page: CoursePage, exercise: str) -> str:
     """Return the expression that the check of an exercise hands over, such as `HumiditySensor`."""
     cell = next((cell for cell in page.cells if cell.check == exercise), None)
-    tree = ast.parse(cell.source) if cell else ast.Module([], [])
-    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
-    checks = [call for call in calls if getattr(call.func, "id", "") == "check" and call.args[1:]]
-    return ast.unparse(checks[0].args[1]) if checks else "None"
+    return (subject_in(cell.source, exercise) if cell else "") or "None"
+
+
+def subject_in(source: str, exercise: str) -> str:
+    """Return the expression that a cell's check of an exercise hands over; empty if none does."""
+    answer = answer_in(source, exercise)
+    return ast.unparse(answer) if answer else ""
 
 
 def _to_run(page: CoursePage, code: Sequence[Cell]) -> tuple[PageCell, ...]:
@@ -138,15 +154,7 @@ def _to_run(page: CoursePage, code: Sequence[Cell]) -> tuple[PageCell, ...]:
             break
         kept += needed
         left = [cell for cell in left if cell not in needed]
-    return tuple(
-        PageCell(
-            cell.source,
-            cell.place,
-            cell.exercise or wanted.get(cell.id, ""),
-            checks_in(cell.source),
-        )
-        for cell in sorted(kept, key=lambda cell: cell.place)
-    )
+    return tuple(_page_cell(cell, wanted) for cell in sorted(kept, key=lambda cell: cell.place))
 
 
 def _is_left_out(cell: Cell, released: Mapping[str, Cell]) -> bool:
@@ -216,7 +224,7 @@ def _answer(page: CoursePage, exercise: str, cells: Sequence[Cell]) -> Answer:
     released = {cell.source.strip() for cell in page.cells}
     ids = {wanted.id for wanted in page.wanted if wanted.exercise == exercise}
     defining = _defining(subject_of(page, exercise))
-    checks = [cell.place for cell in cells if exercise in checks_in(cell.source)]
+    checks = [cell.place for cell in cells if exercise in cell.checked]
     stored = [status for cell in cells for name, status in cell.stored if name == exercise]
     own = [cell for cell in cells if cell.exercise == exercise or (cell.id and cell.id in ids)]
     begin = min((cell.place for cell in own), default=len(cells))
@@ -226,7 +234,7 @@ def _answer(page: CoursePage, exercise: str, cells: Sequence[Cell]) -> Answer:
         for cell in cells
         if cell.sort == "code"
         and cell.source.strip() not in released
-        and not (checks_in(cell.source) and not defining.search(cell.source))
+        and not (cell.checked and not defining.search(cell.source))
     ]
     chosen = [
         cell
