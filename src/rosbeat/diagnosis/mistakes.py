@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from html import escape
 
 _CODE = re.compile(r"`([^`\n]+)`")
@@ -50,6 +51,9 @@ class Diagnosis:
     evidence: str
     hint: str
 
+
+#: Words that say nothing about a mistake.
+_SMALL_WORDS = {"a", "an", "by", "in", "is", "not", "of", "on", "the", "to"}
 
 #: What a failed outcome is called if no mistake was recognised.
 UNKNOWN = "new-to-me"
@@ -383,6 +387,24 @@ _PAGES_07_TO_13 = (
 MISTAKES: dict[str, Mistake] = {
     one.id: one for one in (*_OF_THE_TABLE, *_PAGES_00_TO_06, *_PAGES_07_TO_13)
 }
+
+
+def unknown_mistake(name: str) -> str:
+    """Return what to say to an author who uses a name that the catalog doesn't have."""
+    words = {one.id: f"{one.id} {one.title}" for one in MISTAKES.values()}
+    rated = sorted(words, key=lambda one: -_likeness(name, words[one]))
+    near = ", ".join(f"{one!r} ({MISTAKES[one].title})" for one in rated[:3])
+    return (
+        f"There is no mistake {name!r}. Every name is a line of rosbeat/diagnosis/mistakes.py, "
+        f"which gives it the title that a learner reads. Use the name of one that is there, such "
+        f"as {near}, or add a line."
+    )
+
+
+def _likeness(name: str, text: str) -> float:
+    """Return how much alike a name and a mistake are, by letters of its id and by whole words."""
+    shared = set(name.split("-")) & set(re.findall(r"\w+", text)) - _SMALL_WORDS
+    return SequenceMatcher(None, name, text.split()[0]).ratio() + len(shared) / 4
 
 
 def in_html(text: str, code: Callable[[str], str] = escape) -> str:

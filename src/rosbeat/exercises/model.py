@@ -23,7 +23,7 @@ from typing import Any, TypeAlias
 
 from rosbeat.diagnosis.connections import Wire
 from rosbeat.diagnosis.exceptions import line_of
-from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis, unknown_mistake
 from rosbeat.exercises.exercise import BLANK, Verdict, not_attempted
 from rosbeat.exercises.scenarios import Report, Value
 from rosbeat.records import NANOSECONDS, Fault, Observation, Sample
@@ -46,11 +46,20 @@ class Suspect:
         hint: Where to look, without the answer.
         model: Returns what such a node does, from what it is fed; of the same form as the right
             model's.
+
+    Raises:
+        ValueError: If there is no such mistake. A learner would be told that the check doesn't
+            recognize it, and get its hint all the same.
     """
 
     mistake: str
     hint: str
     model: Model
+
+    def __post_init__(self) -> None:
+        """Refuse a mistake without a name, where it is written."""
+        if self.mistake not in MISTAKES:
+            raise ValueError(unknown_mistake(self.mistake))
 
 
 def suspects(*rows: tuple[Any, ...]) -> tuple[Suspect, ...]:
