@@ -45,11 +45,13 @@ class Diagnosis:
         mistake: Its id, from `MISTAKES`.
         evidence: What was observed that shows it, one or two sentences.
         hint: Where to look, without the answer, one or two sentences.
+        share: Of what was asked for, the share that is right all the same, from 0 to 1.
     """
 
     mistake: str
     evidence: str
     hint: str
+    share: float = 0.0
 
 
 #: Words that say nothing about a mistake.
