@@ -105,6 +105,8 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 
 #: What a learner replaces; the name is never defined, so running it raises a NameError.
 BLANK = "____"
+#: Why a file may be as it was although somebody has begun to fill in its cell.
+NOT_SAVED = f"A cell that still has a blank, {BLANK}, is not saved."
 
 #: What to do about an exception that has no name here.
 NEW_TO_ME = (

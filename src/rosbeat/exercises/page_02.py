@@ -12,7 +12,7 @@ from packaging.licenses import InvalidLicenseExpression, canonicalize_license_ex
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import Manifest
-from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.exercise import BLANK, NOT_SAVED, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import (
     Answer,
     CommandMeaning,
@@ -56,7 +56,8 @@ def _judge_manifest(seen: Workspace) -> Verdict:
     todo = _open_texts(manifest)
     slip = next(_slips_of_form(manifest, _MANIFEST), None)
     if not slip and len(todo) == 2:
-        return not_attempted(f"{_MANIFEST} has no description and no licence yet.")
+        said = f"{_MANIFEST} has no description and no licence yet. {NOT_SAVED}"
+        return not_attempted(said)
     slip = slip or next(_slips_of_values(manifest, todo), None)
     if slip:
         return slip
