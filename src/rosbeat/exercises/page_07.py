@@ -186,14 +186,14 @@ def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Verdic
         return not_attempted()
     if right == count:
         return passed(f"All {count} findings agree with what the greenhouse does.")
-    said = f"{right} of {count} findings {'is' if right == 1 else 'are'} right."
+    counted = f"{right} of {count} findings {'is' if right == 1 else 'are'} right."
     if blank:
-        said += f" Still open: {', '.join(one.key for one in blank)}."
+        counted += f" Still open: {', '.join(one.key for one in blank)}."
     if not wrong:
-        return Diagnosis("finding-missing", said, blank[0].instrument, right / count)
+        return Diagnosis("finding-missing", counted, blank[0].instrument, right / count)
     more = f" And {len(wrong) - 1} more to look at again." if len(wrong) > 1 else ""
     first = wrong[0]
-    return Diagnosis(first.mistake, f"{first.evidence}{more} {said}", first.hint, right / count)
+    return Diagnosis(first.mistake, f"{first.evidence}{more} {counted}", first.hint, right / count)
 
 
 def _is_blank(given: object) -> bool:

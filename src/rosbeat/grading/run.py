@@ -341,8 +341,8 @@ def cause_of(outcome: Outcome, *, is_tried: bool = True) -> str:
         said = "".join(f" Optional, and missing: {one.id} {one.text}" for one in missing)
         return printable(f"It does what is {'required' if missing else 'asked'}.{said}", 400)
     if outcome.status == NOT_ATTEMPTED:
-        known = is_tried or outcome.evidence == NOT_THERE
-        return (known and outcome.evidence) or "Nothing was tried yet."
+        is_told = is_tried or outcome.evidence == NOT_THERE
+        return (is_told and outcome.evidence) or "Nothing was tried yet."
     known = MISTAKES.get(outcome.mistake)
     first = outcome.evidence.split("\n")[0]
     if outcome.parts:

@@ -46,11 +46,14 @@ def solution(lesson):
     return "\n".join(with_answers(cell.source) for cell in lesson.cells if cell.exercise) + "\n"
 
 
+def imports(lesson):
+    return next(cell.source for cell in lesson.cells if cell.runs).partition("\nviz.")[0]
+
+
 @pytest.fixture
 def added(page, lesson, monkeypatch, tmp_path):
     monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
-    first = next(cell.source for cell in lesson.cells if cell.runs)
-    monkeypatch.setattr("bank.running.imports", lambda _: first)
+    monkeypatch.setattr("bank.running.imports", lambda _: imports(lesson))
     for one in page.EXERCISES:
         monkeypatch.setitem(registry.EXERCISES, one.id, one)
 
@@ -112,7 +115,7 @@ def test_each_answer_is_told_what_is_right_or_wrong(added, lesson):
 def test_a_seed_protects_it(added, page, lesson):
     text, (exercise,) = solution(lesson), page.EXERCISES
     assert {outcome_of("14a", text, "Lamp", seed).status for seed in SEEDS} == {"passed"}
-    space = run(f"{next(cell.source for cell in lesson.cells if cell.runs)}\n{text}", "answer")
+    space = run(f"{imports(lesson)}\n{text}", "answer")
     evidence = exercise.observed(space.Lamp)
     assert {exercise.judged(evidence, seed).status for seed in SEEDS} == {"failed"}
 
