@@ -3,7 +3,9 @@
 `rosbeat class` shows a mistake to a class with what such an answer did, what the check says of it,
 and a hint. Nobody's own answer is needed for that. After a change to the bank, a judge or a hint:
 
-    PYTHONPATH=tests .venv/bin/python -m bank.examples
+    PYTHONPATH=tests .venv/bin/python -m bank.examples 03a
+
+Without an exercise, it writes those of all, which takes some minutes.
 """
 
 from __future__ import annotations
@@ -11,7 +13,8 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator
+import sys
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
@@ -125,10 +128,10 @@ def shown() -> dict[tuple[str, str, str], tuple[str, str]]:
     }
 
 
-def every(home: Path) -> Iterator[tuple[str, str, Example]]:
+def every(home: Path, chosen: Collection[str]) -> Iterator[tuple[str, str, Example]]:
     """Yield exercise, mistake, and what there is to show."""
     for (exercise, name), some in candidates().items():
-        found = example(name, some, home)
+        found = example(name, some, home) if exercise in chosen else None
         if found:
             yield exercise, name, found
 
@@ -142,14 +145,19 @@ def solved(exercise: str) -> Trace | None:
     return drawable(trace_of(observed(right)), inf)
 
 
-def write() -> None:
-    """Run the answers, and write the file."""
-    made: dict[str, dict[str, object]] = {}
+def write(*names: str) -> None:
+    """Run the answers to these exercises, or to all, and write the file."""
+    known = {one for one, _ in candidates()}
+    chosen = known.intersection(names) if names else known
+    before = json.loads(FILE.read_text(encoding="utf-8"))
+    made: dict[str, dict[str, object]] = {
+        exercise: some for exercise, some in before.items() if exercise in known - chosen
+    }
     with TemporaryDirectory() as home, patch.dict(os.environ, ROSBEAT_STEADY_HOME=home):
-        for exercise in sorted({one for one, _ in candidates()}):
+        for exercise in sorted(chosen):
             if right := solved(exercise):
                 made[exercise] = {"": {"trace": as_data(right)}}  # with what both were fed
-        for exercise, name, found in every(Path(home)):
+        for exercise, name, found in every(Path(home), chosen):
             made.setdefault(exercise, {})[name] = found
             print(exercise, name, flush=True)
     rows = (
@@ -165,4 +173,4 @@ def write() -> None:
 
 
 if __name__ == "__main__":
-    write()
+    write(*sys.argv[1:])

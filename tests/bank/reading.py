@@ -24,6 +24,7 @@ several names, each name is true. Behind the name, parts that are set off by ` |
 
     from NAME     the entry to change, instead of the solution
     misses R1 R2  the requirements of the rubric that are not met: these, and no others
+    points 2      the points that a wrong answer gets all the same
     EXPRESSION    what is handed to `check`; by default what the solution defines last, or what the
                   cell defines last if it does not define that
 
@@ -60,6 +61,7 @@ class Answer:
         subject: The expression that is handed to `check`.
         before: Lines of a shell that are typed into the workspace, too.
         misses: Ids of the requirements that are not met.
+        points: The points that a wrong answer gets; None if that is not said.
     """
 
     exercise: str
@@ -70,6 +72,7 @@ class Answer:
     subject: str = ""
     before: str = ""
     misses: frozenset[str] = frozenset()
+    points: int | None = None
 
     @property
     def id(self) -> str:
@@ -107,7 +110,7 @@ def _answer(
     said = {}
     for part in more:
         kind, _, value = part.partition(" ")
-        known = kind in ("from", "misses")
+        known = kind in ("from", "misses", "points")
         said[kind if known else "subject"] = value if known else part
     before, cell = bodies[name]
     try:
@@ -128,6 +131,7 @@ def _answer(
         said.get("subject") or _subject(cell, published),
         before,
         frozenset(said.get("misses", "").split()),
+        int(said["points"]) if "points" in said else None,
     )
 
 

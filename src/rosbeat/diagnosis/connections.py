@@ -228,7 +228,8 @@ def _silent(observation: Observation, wire: Wire, known: str) -> Diagnosis:
         hint = "The timer never fired. Does the constructor cancel it, or shut ROS down?"
     return (_never_called(observation, wire) if not ran else None) or Diagnosis(
         "never-published",
-        f"The node has a publisher on {wire.topic}, but never used it.",
+        f"The node has a publisher on {wire.topic}, but published nothing there in "
+        f"{observation.time:g} s.",
         hint,
     )
 

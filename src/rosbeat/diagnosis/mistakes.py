@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from html import escape
 
 _CODE = re.compile(r"`([^`\n]+)`")
@@ -44,12 +45,17 @@ class Diagnosis:
         mistake: Its id, from `MISTAKES`.
         evidence: What was observed that shows it, one or two sentences.
         hint: Where to look, without the answer, one or two sentences.
+        share: Of what was asked for, the share that is right all the same, from 0 to 1.
     """
 
     mistake: str
     evidence: str
     hint: str
+    share: float = 0.0
 
+
+#: Words that say nothing about a mistake.
+_SMALL_WORDS = {"a", "an", "by", "in", "is", "not", "of", "on", "the", "to"}
 
 #: What a failed outcome is called if no mistake was recognised.
 UNKNOWN = "new-to-me"
@@ -128,7 +134,7 @@ _PAGES_00_TO_06 = (
     Mistake("no-node", "something that is not a node class"),
     Mistake("exits", "a node that ends the whole program"),
     Mistake("no-publisher", "no publisher"),
-    Mistake("never-published", "a publisher that is never used"),
+    Mistake("never-published", "a publisher that publishes nothing"),
     Mistake("gone-quiet", "a publisher that has stopped publishing"),
     Mistake("no-subscription", "no subscription"),
     Mistake("node-ended", "a node that has ended"),
@@ -138,7 +144,7 @@ _PAGES_00_TO_06 = (
     Mistake("wrong-rate", "a different rate than requested"),
     Mistake("wrong-depth", "a different queue depth than requested"),
     Mistake("wrong-values", "different values than requested"),
-    Mistake("nothing-logged", "a reading that is not logged"),
+    Mistake("nothing-logged", "a missing log line"),
     Mistake("boundary", "a value at a limit, counted on the other side"),
     Mistake("wrong-state", "a different state than requested"),
     Mistake("wrong-topic", "a different topic than requested"),
@@ -202,7 +208,7 @@ _PAGES_00_TO_06 = (
     Mistake("parents-missing", "a folder whose parent does not exist"),
     Mistake("tilde-missing", "a path that begins at the root by mistake"),
     Mistake("absolute-path", "an absolute path instead of a relative one"),
-    Mistake("levels-miscounted", "a path with one level too few or too many"),
+    Mistake("levels-miscounted", "a path with too few or too many levels"),
     Mistake("path-misspelled", "a misspelled path"),
     Mistake("path-separator", "a path without a slash as its separator"),
     Mistake("folders-side-by-side", "folders side by side instead of nested"),
@@ -224,6 +230,9 @@ _PAGES_00_TO_06 = (
     Mistake("option-missing", "an option's value without the option"),
     Mistake("option-misspelled", "an option that does not exist"),
     Mistake("edited-in-install", "a change in install instead of src"),
+    Mistake("only-printed", "a change that is printed and not saved"),
+    Mistake("nothing-replaced", "a text to replace that is not in the file"),
+    Mistake("not-linked", "a build that copies instead of linking"),
     Mistake("other-file", "a change in a different file than requested"),
     Mistake("other-package", "a different package than requested"),
 )
@@ -335,6 +344,7 @@ _PAGES_07_TO_13 = (
     Mistake("reason-missing", "a refusal without a reason"),
     Mistake("nonsense-accepted", "an implausible value accepted"),
     Mistake("nan-accepted", "a NaN that passes every comparison"),
+    Mistake("not-a-goal-response", "a goal callback that does not return a GoalResponse"),
     Mistake("good-value-refused", "a valid value refused"),
     Mistake("refused-and-kept", "a value refused but used anyway"),
     Mistake("accepted-and-lost", "a value accepted but not used"),
@@ -383,6 +393,24 @@ _PAGES_07_TO_13 = (
 MISTAKES: dict[str, Mistake] = {
     one.id: one for one in (*_OF_THE_TABLE, *_PAGES_00_TO_06, *_PAGES_07_TO_13)
 }
+
+
+def unknown_mistake(name: str) -> str:
+    """Return what to say to an author who uses a name that the catalog doesn't have."""
+    words = {one.id: f"{one.id} {one.title}" for one in MISTAKES.values()}
+    rated = sorted(words, key=lambda one: -_likeness(name, words[one]))
+    near = ", ".join(f"{one!r} ({MISTAKES[one].title})" for one in rated[:3])
+    return (
+        f"There is no mistake {name!r}. Every name is a line of rosbeat/diagnosis/mistakes.py, "
+        f"which gives it the title that a learner reads. Use the name of one that is there, such "
+        f"as {near}, or add a line."
+    )
+
+
+def _likeness(name: str, text: str) -> float:
+    """Return how much alike a name and a mistake are, by letters of its id and by whole words."""
+    shared = set(name.split("-")) & set(re.findall(r"\w+", text)) - _SMALL_WORDS
+    return SequenceMatcher(None, name, text.split()[0]).ratio() + len(shared) / 4
 
 
 def in_html(text: str, code: Callable[[str], str] = escape) -> str:

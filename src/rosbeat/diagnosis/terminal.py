@@ -253,8 +253,8 @@ class Row:
         if not self.when(seen, call, found):
             return None
         words, here = (found[0], *found.groups("")), call.place.name or "/"
-        said = (one.format(*words, here=here) for one in (self.evidence, self.hint))
-        return Diagnosis(self.mistake, *said)
+        evidence, hint = (one.format(*words, here=here) for one in (self.evidence, self.hint))
+        return Diagnosis(self.mistake, evidence, hint)
 
 
 @dataclass(frozen=True)
@@ -280,8 +280,8 @@ class PackageRow:
             return None
         stem = executable.removesuffix(".py")
         values = vars(package) | {"executable": executable, "stem": stem}
-        said = (one.format_map(values) for one in (self.evidence, self.hint))
-        return Diagnosis(self.mistake, *said)
+        evidence, hint = (one.format_map(values) for one in (self.evidence, self.hint))
+        return Diagnosis(self.mistake, evidence, hint)
 
 
 @dataclass(frozen=True)

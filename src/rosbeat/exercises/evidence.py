@@ -10,7 +10,7 @@ from __future__ import annotations
 from rosbeat import records_json
 from rosbeat.exercises.page_01 import FolderMaking
 from rosbeat.exercises.page_02 import PackageMaking
-from rosbeat.exercises.page_06 import CodeChange
+from rosbeat.exercises.page_06 import CodeChange, LinkMaking
 from rosbeat.exercises.page_11 import BagReports, Replays
 from rosbeat.exercises.page_13 import Trials
 from rosbeat.exercises.scenarios import Report, TypedIn, Value, Workspace
@@ -36,6 +36,7 @@ KINDS: dict[str, type] = {
         BagReports,
         Trials,
         CodeChange,
+        LinkMaking,
     )
 }
 

@@ -85,10 +85,15 @@ class Exercise(Generic[Seen]):
         return self.outcome(early or self.judge(seen, *self.inputs(seed)))
 
     def outcome(self, verdict: Verdict) -> Outcome:
-        """Return a verdict as an outcome of this exercise, with its points."""
+        """Return a verdict as an outcome of this exercise, with its points.
+
+        Points are whole: of a part that is right, those that it has reached.
+        """
+        share = float(not isinstance(verdict, Diagnosis) and verdict.status == PASSED)
         if isinstance(verdict, Diagnosis):
+            share = verdict.share
             verdict = failed(self.id, verdict.evidence, verdict.hint, verdict.mistake)
-        reached = self.points if verdict.status == PASSED else 0
+        reached = int(self.points * share + 1e-9)  # 3 * (1 / 3) may be a little less than 1
         if verdict.parts:  # points for each requirement, whether the whole is right or not
             reached = sum(part.points for part in verdict.parts)
         return replace(verdict, exercise=self.id, points=reached, out_of=self.points)
@@ -100,6 +105,8 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 
 #: What a learner replaces; the name is never defined, so running it raises a NameError.
 BLANK = "____"
+#: Why a file may be as it was although somebody has begun to fill in its cell.
+NOT_SAVED = f"A cell that still has a blank, {BLANK}, is not saved."
 
 #: What to do about an exception that has no name here.
 NEW_TO_ME = (

@@ -16,14 +16,14 @@ from __future__ import annotations
 import re
 import struct
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeAlias
 
 from rosbeat.diagnosis.connections import Wire
 from rosbeat.diagnosis.exceptions import line_of
-from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis, unknown_mistake
 from rosbeat.exercises.exercise import BLANK, Verdict, not_attempted
 from rosbeat.exercises.scenarios import Report, Value
 from rosbeat.records import NANOSECONDS, Fault, Observation, Sample
@@ -46,11 +46,20 @@ class Suspect:
         hint: Where to look, without the answer.
         model: Returns what such a node does, from what it is fed; of the same form as the right
             model's.
+
+    Raises:
+        ValueError: If there is no such mistake. A learner would be told that the check doesn't
+            recognize it, and get its hint all the same.
     """
 
     mistake: str
     hint: str
     model: Model
+
+    def __post_init__(self) -> None:
+        """Refuse a mistake without a name, where it is written."""
+        if self.mistake not in MISTAKES:
+            raise ValueError(unknown_mistake(self.mistake))
 
 
 def suspects(*rows: tuple[Any, ...]) -> tuple[Suspect, ...]:
@@ -106,13 +115,29 @@ def agree(one: Track, other: Track, same: Same = equal) -> bool:
 
 def first_mismatch(done: Track, right: Track, same: Same = equal) -> Mismatch | None:
     """Return the first moment at which two tracks differ; None if they never do."""
+    return next(_mismatches(done, right, same), None)
+
+
+def _mismatches(done: Track, right: Track, same: Same) -> Iterator[Mismatch]:
     if done == right:  # the usual case, and quick to see
-        return None
+        return
     for at in sorted({*done, *right}):
         found, wanted = done.get(at, ()), right.get(at, ())
         if len(found) != len(wanted) or not all(map(same, found, wanted)):
-            return Mismatch(at, found, wanted)
-    return None
+            yield Mismatch(at, found, wanted)
+
+
+#: Mistakes whose names say that something is done too often, or is missing.
+_TOO_OFTEN = {"status-repeated", "alert-too-many", "level-too-low"}
+_TOO_RARELY = {"alert-missing", "change-missing", "level-missed", "said-once", "one-name-only"}
+
+
+def _shows(mistake: str, mismatch: Mismatch) -> bool:
+    """Return whether a moment is an example of what the mistake's name says."""
+    more = len(mismatch.done) - len(mismatch.right)
+    if mistake in _TOO_OFTEN:
+        return more > 0
+    return more < 0 if mistake in _TOO_RARELY else True
 
 
 def matching(
@@ -191,17 +216,22 @@ def diagnose(
         done: What it did.
         right: What the right model does.
         suspects: Those to try, the likely ones first.
-        describe: Describes the first mismatch. Its evidence is shown in any case; its mistake and
-            its hint are for an answer that no suspect reproduces.
+        describe: Describes a mismatch: the first that shows what the mistake is called. Its
+            evidence is shown in any case; its mistake and its hint are for an answer that no
+            suspect reproduces.
         same: Tells whether two values are the same.
 
     Returns:
         The mistake; None if there is no mismatch.
     """
-    mismatch = first_mismatch(done, right, same)
-    if mismatch is None:
+    found = list(_mismatches(done, right, same))
+    if not found:
         return None
-    return name_mistake(matching(fed, done, suspects, same), describe(mismatch))
+    matches = matching(fed, done, suspects, same)
+    # What is shown has to be what it is called: a status that is not kept may first be missing.
+    name = matches[0].mistake if matches else UNKNOWN
+    shown = next((mismatch for mismatch in found if _shows(name, mismatch)), found[0])
+    return name_mistake(matches, describe(shown))
 
 
 # Messages on a topic, and words.

@@ -35,6 +35,11 @@ _commands = partial(commands_in, escape="")
 
 _ALARM, _PARENT, _CHILD = "resources/sounds/alarm", "sounds", "alarm"
 _RUNS_THROUGH = "resources/sounds"
+#: What the page's own cells make; whoever makes something else has tried.
+_OF_THE_PAGE = {
+    *("-p", "$ROS2_WORKSPACE", "src", "docs", "scripts", "resources/images"),
+    *("resources/maps/kitchen", f"/Documents/{NAME}/"),
+}
 #: Commands that make no folder.
 _LOOKING = {"ls", "cd", "pwd", "cat", "find", "tree", "stat", "echo", "rm", "rmdir"}
 
@@ -48,8 +53,9 @@ class FolderMaking:
         obstacle: What is where the folder was asked for, if it is none: `a link`, `a file`, `behind
             a link` or empty.
         is_older: Whether the folder that was asked for has been there longer than this page runs.
-        tried: Each line about that folder, with the folder it was typed in, as the prompt said it.
-            Empty where a page has no terminals.
+        tried: Each line about that folder, and each that makes another one than the page does,
+            with the folder it was typed in, as the prompt said it. Empty where a page has no
+            terminals.
         meaning: What the last of these lines has led to, if it is a known mistake.
     """
 
@@ -75,10 +81,17 @@ def _look_at_making(answer: Answer) -> FolderMaking:
     return FolderMaking(found, obstacle, is_older, tried, meaning)
 
 
-def _is_try(line: str) -> bool:
+def _is_about(line: str) -> bool:
     commands = _commands(line)
     near = any(_is_near(word) for words in commands for word in words)
     return near and any(words[0] not in _LOOKING for words in commands)
+
+
+def _is_try(line: str) -> bool:
+    return _is_about(line) or any(
+        alike(words[0], "mkdir") and not _OF_THE_PAGE.issuperset(words[1:] or ["nothing"])
+        for words in _commands(line)
+    )
 
 
 def _made_by(place: str, line: str) -> set[str] | None:
@@ -102,10 +115,10 @@ def _made_by(place: str, line: str) -> set[str] | None:
 
 
 def _judge_folder(seen: FolderMaking) -> Verdict:
-    simulated = [_made_by(*one) for one in seen.tried]
+    simulated = [_made_by(*one) for one in seen.tried if _is_about(one[1])]
     certain = [one for paths in simulated if paths is not None for one in paths]
     # Of a folder from before, what was typed now counts, if it is certain what that makes.
-    is_old = seen.is_older and bool(seen.tried) and None not in simulated
+    is_old = seen.is_older and bool(simulated) and None not in simulated
     is_old = is_old and not any(f"{one}/".startswith(f"{_ALARM}/") for one in certain)
     if _ALARM in seen.workspace.folders and not is_old:
         return passed(f"{_ALARM} is there.")
@@ -124,6 +137,8 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
     if not seen.tried:
         return not_attempted(f"There is no folder {_ALARM} yet.")
     said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
+    if set(seen.workspace.folders).intersection(_made_by(*seen.tried[-1]) or ()):
+        return Diagnosis("wrong-folder", said, "Compare the path with the one that is asked for.")
     if _commands(seen.tried[-1][1])[-1][0] == "touch":
         return Diagnosis("not-a-folder", said, "touch makes empty files. What makes folders?")
     return Diagnosis(UNKNOWN, said, _PWD)
@@ -189,7 +204,12 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
         return Diagnosis(
             UNKNOWN, said, "What did you type after that? Create the folder once more."
         )
+    if near.startswith("/"):
+        said = f"{near} starts with `/`, the root of the file system: it isn't in your workspace."
+        return Diagnosis("tilde-missing", said, _PWD)
     evidence = f"There is {near}, but not {_ALARM}."
+    if near not in there:  # where a learner may create it, or outside the workspace
+        evidence = f"What you typed names {near}. The workspace has no {_ALARM}."
     if _ALARM in seen.workspace.folders:
         evidence = f"What you typed makes {near}. {_ALARM} is there from before."
     # Only what a suspect makes counts: a workspace keeps what was tried before, too.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from packaging.licenses import InvalidLicenseExpression, canonicalize_license_ex
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import Manifest
-from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.exercise import BLANK, NOT_SAVED, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import (
     Answer,
     CommandMeaning,
@@ -48,13 +48,16 @@ _TAGS = ("name", "version", "description", "maintainer", "license", "export")
 
 def _judge_manifest(seen: Workspace) -> Verdict:
     here = [one for one in seen.packages.values() if one.folder.as_posix() == f"src/{_FIRST}"]
+    if not here and _FIRST in seen.packages:
+        return _misplaced(_FIRST, seen.place_of(_FIRST))
     if not here:
         return not_attempted(f"There is no package {_FIRST} in src yet.")
     manifest = here[0].manifest
     todo = _open_texts(manifest)
     slip = next(_slips_of_form(manifest, _MANIFEST), None)
     if not slip and len(todo) == 2:
-        return not_attempted(f"{_MANIFEST} has no description and no licence yet.")
+        said = f"{_MANIFEST} has no description and no licence yet. {NOT_SAVED}"
+        return not_attempted(said)
     slip = slip or next(_slips_of_values(manifest, todo), None)
     if slip:
         return slip
@@ -132,7 +135,7 @@ def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]
     if not manifest.maintainer or not _EMAIL.fullmatch(manifest.email):
         yield Diagnosis(
             "manifest-value",
-            "The manifest names no maintainer with an address.",
+            _about_maintainer(manifest),
             "<maintainer> holds a name, and its email an address such as you@example.com.",
         )
     if manifest.build_type != "ament_python":
@@ -143,6 +146,19 @@ def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]
             "<build_type>, between <export> and </export>, tells colcon how to build the package: "
             "here, one for Python.",
         )
+
+
+def _about_maintainer(manifest: Manifest) -> str:
+    """Say what a manifest lacks that names no maintainer, or an address that colcon refuses."""
+    if not manifest.maintainer:
+        return "The manifest names no maintainer."
+    if not manifest.email:
+        return "The maintainer in the manifest has no address."
+    said = f"colcon doesn't accept the maintainer's address, {manifest.email!r}"
+    foreign = list(dict.fromkeys(sign for sign in manifest.email if not sign.isascii()))
+    if foreign:
+        return f"{said}: it may not contain {' or '.join(foreign)}, only the letters a to z."
+    return f"{said}."
 
 
 def _slips_of_dependencies(
@@ -203,7 +219,8 @@ class PackageMaking:
 
     Attributes:
         workspace: What is in the workspace.
-        tried: The last line that was to make a package; empty where a page has no terminals.
+        tried: The last line that was to make another package than the page does; empty where a
+            page has no terminals.
         meaning: What that line has led to, if it is a known mistake.
     """
 
@@ -219,9 +236,11 @@ def _look_at_package_making(answer: Answer) -> PackageMaking:
 
 
 def _is_try(line: str) -> bool:
-    """Return whether a line is to make the second package, or one with nearly its name."""
-    creates = re.search(r"\bpkg\s+create\b", line)
-    return bool(creates) and any(alike(word, _SECOND) for word in re.split(r"[\s=,'\"]+", line))
+    """Return whether a line is to make the second package, whatever it is called there."""
+    words = re.split(r"[\s=,'\"]+", line.strip())
+    looks = words[0] in ("ls", "cat", "cd", "find", "rm", "rmdir", "echo", "tree")
+    creates = "ros2" in words and "create" in words and _FIRST not in words
+    return not looks and (creates or any(alike(word, _SECOND) for word in words))
 
 
 def _judge_second(made: PackageMaking) -> Verdict:
@@ -232,13 +251,21 @@ def _judge_second(made: PackageMaking) -> Verdict:
     if slip:
         return slip
     if package is None:
-        return diagnosis_of(made.meaning) or _nothing_made(made.tried)
+        return diagnosis_of(made.meaning) or _nothing_made(made.tried, seen.packages)
     return passed(f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
 
 
-def _nothing_made(tried: str) -> Verdict:
+def _nothing_made(tried: str, packages: Collection[str]) -> Verdict:
     if not tried:
         return not_attempted(f"There is no package {_SECOND} yet.")
+    other = next((name for name in re.split(r"[\s=,'\"]+", tried) if name in packages), "")
+    if other:
+        return Diagnosis(
+            "other-package",
+            f"There is a package {other}, and none called {_SECOND}.",
+            f"The exercise says what the package is called. Remove the folder (rm -r) of {other}, "
+            "and make it again.",
+        )
     return Diagnosis(
         UNKNOWN,
         f"You typed `{tried}`, and there is no package {_SECOND}.",
@@ -246,10 +273,10 @@ def _nothing_made(tried: str) -> Verdict:
     )
 
 
-def _misplaced(place: str) -> Diagnosis:
+def _misplaced(package: str, place: str) -> Diagnosis:
     return Diagnosis(
         "wrong-folder",
-        f"{_SECOND} lies in {place}, and packages belong in src.",
+        f"{package} lies in {place}, and packages belong in src.",
         "Remove it there (rm -r), go to src with cd, and make it again.",
     )
 
@@ -262,7 +289,7 @@ def _slips_of_absence(made: PackageMaking) -> Iterator[Diagnosis]:
     for folder in inside:
         place = folder.rpartition("/")[0]
         if place and any(f"{place}/".startswith(package) for package in packages):
-            yield _misplaced(place)
+            yield _misplaced(_SECOND, place)
     if inside:
         yield Diagnosis(
             "no-manifest",
@@ -285,7 +312,7 @@ def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnos
     place, manifest = made.workspace.place_of(_SECOND), package.manifest
     again = f"Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
     if place:
-        yield _misplaced(place)
+        yield _misplaced(_SECOND, place)
     yield from _slips_of_form(manifest, f"src/{_SECOND}/package.xml")
     if manifest.build_type != "ament_python":
         kind = manifest.build_type or "of an unknown kind"

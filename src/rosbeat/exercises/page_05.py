@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.exercise import BLANK, NOT_SAVED, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import Workspace, look_at_workspace
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script
 from rosbeat.workspace.packages import Package
@@ -28,7 +28,7 @@ def _judge_setup(seen: Workspace, name: str, programs: tuple[str, str]) -> Verdi
     found = diagnose_script(package)
     entries = package.setup.entry_points
     if not found and not package.setup.incomplete and all(BLANK in one.text for one in entries):
-        return not_attempted("setup.py has no entry points yet.")
+        return not_attempted(f"setup.py has no entry points yet. {NOT_SAVED}")
     found = found or diagnose_entries(package, programs) or _diagnose_data_files(package)
     if found:
         return found

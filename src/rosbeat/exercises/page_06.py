@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import diagnose_flaw, parse
+from rosbeat.diagnosis.terminal import commands_in
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import spelling
-from rosbeat.exercises.scenarios import Answer, Workspace, look_at_workspace
-from rosbeat.exercises.workspace_model import FLAW_HINTS, alike, diagnose_script
+from rosbeat.exercises.scenarios import (
+    Answer,
+    CommandMeaning,
+    Workspace,
+    look_at_workspace,
+    typed_about,
+)
+from rosbeat.exercises.workspace_model import FLAW_HINTS, alike, diagnose_script, diagnosis_of
 from rosbeat.workspace.packages import Package
 
 _PACKAGE = "sensor_simulator"
@@ -20,6 +28,8 @@ _PACKAGE = "sensor_simulator"
 # 06a, change the code: what the monitor's file says, and what its installed copy says.
 
 _MONITOR, _SENSOR = "temperature_subscriber.py", "temperature_publisher.py"
+#: Texts that the monitor logs of a reading, and what is no text, such as a format: `.2f`.
+_OF_READINGS = re.compile(r"^Temperature: |Status:|^(High|Low|Normal|\W*\w{0,2}\W*)$")
 _OLD, _NEW = "Temperature Monitor Node Started", "Temperature Monitor Version 2"
 
 
@@ -33,6 +43,8 @@ class CodeChange:
         logged: Those that the file logs.
         other: Those in the sensor's file.
         copies: Those in the copies of the monitor's file that colcon has installed.
+        tried: The last line that was to change a file; empty where a page has no terminals.
+        meaning: What that line has led to, if it is a known mistake.
     """
 
     package: Package | None = None
@@ -40,6 +52,16 @@ class CodeChange:
     logged: tuple[str, ...] = ()
     other: tuple[str, ...] = ()
     copies: tuple[str, ...] = ()
+    tried: str = ""
+    meaning: CommandMeaning | None = None
+
+
+#: Programs that change a text.
+_EDITORS = ("sed", "perl", "awk", "python", "python3", "nano", "vi", "vim", "emacs", "tee", "patch")
+
+
+def _changes(line: str) -> bool:
+    return ">" in line or any(words[0] in _EDITORS for words in commands_in(line))
 
 
 def look_at_change(answer: Answer) -> CodeChange:
@@ -55,11 +77,16 @@ def look_at_change(answer: Answer) -> CodeChange:
     if package is None:
         return CodeChange()
     root = Path(answer)
+    typed, meaning = typed_about(root, _changes)
     modules = root / package.folder / _PACKAGE
     installed = sorted(root.glob(f"install/**/site-packages/{_PACKAGE}/{_MONITOR}"))
     copies = tuple(text for path in installed for text in _texts(path))
     monitor = modules / _MONITOR
-    return CodeChange(package, _texts(monitor), _logged(monitor), _texts(modules / _SENSOR), copies)
+    return CodeChange(
+        *(package, _texts(monitor), _logged(monitor), _texts(modules / _SENSOR), copies),
+        tried=typed[-1][1] if typed else "",
+        meaning=meaning,
+    )
 
 
 def _nodes(path: Path) -> list[ast.AST]:
@@ -156,23 +183,88 @@ def _diagnose_change(seen: CodeChange) -> Verdict:
             "The monitor is the program that subscribes.",
         )
     if _OLD in seen.source:
-        return not_attempted(f"The monitor's file in src still says {_OLD!r}.")
-    said = [one for one in seen.source if " " in one and alike(one, _NEW)]
+        return _diagnose_nothing_changed(seen)
+    # What the monitor logs instead, and else what it says anywhere that is nearly the text.
+    said = [one for one in seen.logged if not _OF_READINGS.search(one)]
+    said += [one for one in seen.source if " " in one and alike(one, _NEW)]
     if not said:
         return Diagnosis(
             "nothing-logged",
             "The text that the monitor logs at its start is gone.",
             f"Only the end of {_OLD!r} changes.",
         )
+    said.sort(key=lambda one: -len(set(one.split()).intersection(_NEW.split())))
     evidence = f"The file in src says {said[0]!r}; {_NEW!r} was asked for."
     hint = spelling(said[0], [_NEW]) or "Compare the two, letter by letter."
+    if _NEW in said[0]:
+        hint = (
+            "The text has more words than that. Only those that the exercise names are asked for."
+        )
     return Diagnosis("wrong-word", evidence, hint)
+
+
+def _diagnose_nothing_changed(seen: CodeChange) -> Verdict:
+    """Return why what was typed has left the monitor's file as it was; the line itself tells."""
+    said = f"The monitor's file in src still says {_OLD!r}."
+    if not seen.tried:
+        return not_attempted(said)
+    known = diagnosis_of(seen.meaning)
+    if known:
+        return known
+    said = f"You typed `{seen.tried}`. {said}"
+    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
+    if words and not any(re.match(r"-\w*i|--in-place", word) for word in words):
+        hint = "sed prints the changed text. Which option writes it into the file instead?"
+        return Diagnosis("only-printed", said, hint)
+    if words and not any(word.endswith(_MONITOR) for word in words):
+        return Diagnosis("other-file", said, f"The monitor's file is {_MONITOR}.")
+    if words:
+        hint = "The first of the two texts has to be in the file, letter by letter."
+        return Diagnosis("nothing-replaced", said, hint)
+    return Diagnosis(UNKNOWN, said, f"Only the end of {_OLD!r} changes, in the line that logs it.")
 
 
 # 06b, link instead of copy: how the package is installed.
 
 
-def _judge_links(seen: Workspace) -> Verdict:
+@dataclass(frozen=True)
+class LinkMaking:
+    """Record the packages of a workspace, and what was typed to build one.
+
+    Attributes:
+        workspace: What is in the workspace.
+        tried: The last build that was typed, besides the one at the top of the page; empty if there
+            was none, or where a page has no terminals.
+        meaning: What that line has led to, if it is a known mistake.
+    """
+
+    workspace: Workspace
+    tried: str = ""
+    meaning: CommandMeaning | None = None
+
+
+#: The build with which the page begins.
+_FIRST_BUILD = f"colcon build --packages-select {_PACKAGE}"
+
+
+def _builds(line: str) -> bool:
+    return any(
+        words[0] == "colcon" and "build" in words and not {"-h", "--help"}.intersection(words)
+        for words in commands_in(line)
+    )
+
+
+def _look_at_links(answer: Answer) -> LinkMaking:
+    found = look_at_workspace(answer)
+    typed, meaning = typed_about(Path(answer), _builds)
+    lines = [line for _, line in typed]
+    if lines and lines[0].strip() == _FIRST_BUILD:
+        del lines[0]
+    return LinkMaking(found, lines[-1], meaning) if lines else LinkMaking(found)
+
+
+def _judge_links(made: LinkMaking) -> Verdict:
+    seen = made.workspace
     package = seen.packages.get(_PACKAGE)
     if package is None:
         return not_attempted(f"There is no package {_PACKAGE} in src yet.")
@@ -181,9 +273,19 @@ def _judge_links(seen: Workspace) -> Verdict:
     found = _diagnose_build(seen, package)
     if found:
         return found
+    said = f"{_PACKAGE} is installed as a copy so far."
     if package.installed is None:
-        return not_attempted(f"{_PACKAGE} is not built yet.")
-    return not_attempted(f"{_PACKAGE} is installed as a copy so far.")
+        said = f"{_PACKAGE} is not built yet."
+    if not made.tried:
+        return not_attempted(said)
+    known = diagnosis_of(made.meaning)
+    if known:
+        return known
+    said = f"You typed `{made.tried}`. {said}"
+    if package.installed is None:
+        return Diagnosis(UNKNOWN, said, "The last lines that colcon printed say what went wrong.")
+    hint = "Without an option, colcon copies. `colcon build --help` lists the one for links."
+    return Diagnosis("not-linked", said, hint)
 
 
 def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
@@ -216,7 +318,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "The new text ends with a number. Compare it with the text above, with its capital "
         "letter and its space.",
     )),
-    Exercise("06b", look_at_workspace, _judge_links, title="link instead of copy", hints=(
+    Exercise("06b", _look_at_links, _judge_links, title="link instead of copy", hints=(
         "colcon has an option for this, and its help lists the option's name.",
         "The line above the cell searches that help for a word. An option begins with two "
         "dashes.",

@@ -87,6 +87,9 @@ class _Question:
         """Return whether two values are the same; only a measured one may be a little off."""
         if self.kind == "rate":
             return bool(abs(one - other) <= _TOLERANCE * other)
+        if self.kind == "type":  # `Int32` and `std_msgs/Int32` are names of std_msgs/msg/Int32, too
+            package, _, name = other.split("/")
+            return one in (other, f"{package}/{name}", name)
         return bool(one == other)
 
 
@@ -176,17 +179,21 @@ def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Verdic
         evidence = f"The function returned a {said.type_name} instead of the dict."
         return Diagnosis("other-kind", evidence, "Leave the dict with its keys as it was.")
     questions = _questions(house)
+    blank = [one for one in questions if _is_blank(findings.get(one.key))]
     wrong = [found for one in questions if (found := _compared(house, one, findings))]
-    if wrong:
-        more = f" And {len(wrong) - 1} more to look at again." if len(wrong) > 1 else ""
-        return Diagnosis(wrong[0].mistake, wrong[0].evidence + more, wrong[0].hint)
-    count, blank = len(questions), [one.key for one in questions if _is_blank(findings[one.key])]
-    if not blank:
-        return passed(f"All {count} findings agree with what the greenhouse does.")
+    count, right = len(questions), len(questions) - len(blank) - len(wrong)
     if len(blank) == count:
         return not_attempted()
-    right = f"{count - len(blank)} of {count} are found, and right."
-    return not_attempted(f"{right} Still open: {', '.join(blank)}.")
+    if right == count:
+        return passed(f"All {count} findings agree with what the greenhouse does.")
+    counted = f"{right} of {count} findings {'is' if right == 1 else 'are'} right."
+    if blank:
+        counted += f" Still open: {', '.join(one.key for one in blank)}."
+    if not wrong:
+        return Diagnosis("finding-missing", counted, blank[0].instrument, right / count)
+    more = f" And {len(wrong) - 1} more to look at again." if len(wrong) > 1 else ""
+    first = wrong[0]
+    return Diagnosis(first.mistake, f"{first.evidence}{more} {counted}", first.hint, right / count)
 
 
 def _is_blank(given: object) -> bool:
@@ -207,7 +214,7 @@ def _compared(house: Greenhouse, question: _Question, said: dict[str, Any]) -> D
     if _is_blank(given) or right:
         return None
     known = (found for one, found in question.misread.items() if question.same(value, one))
-    mistake, evidence = _malformed(house, question.kind, value) or next(
+    mistake, evidence = _malformed(house, question, value) or next(
         known, ("finding-wrong", question.otherwise)
     )
     evidence = f"For '{question.key}' you wrote {given!r}. {evidence}"
@@ -231,15 +238,16 @@ def _full(name: str) -> str:
     return "/" + name.strip().lstrip("/").replace(".", "/")
 
 
-def _malformed(house: Greenhouse, kind: str, value: Value) -> tuple[str, str] | None:
+def _malformed(house: Greenhouse, question: _Question, value: Value) -> tuple[str, str] | None:
     """Say what is wrong with the form of a value: not by models, because any text may come."""
+    kind = question.kind
     if value is None:
         wanted = "a bare number" if kind in _NUMBERS else "a text in quotes"
         return "other-kind", f"The answer to this question is {wanted}."
-    if kind == "type" and value.count("/") < 2:
-        return "name-incomplete", "A type's full name has three parts: package, `msg`, name."
     if kind == "type" and value.strip("[]") != value:
         return "stray-characters", "The name is the text inside the brackets, without them."
+    if kind == "type" and any(value in one for one in question.truth):
+        return "name-incomplete", "A type's full name has three parts: package, `msg`, name."
     if kind not in ("node", "topic"):
         return None
     graph = house.run.graph

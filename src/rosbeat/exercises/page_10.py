@@ -17,7 +17,7 @@ from rosbeat.diagnosis.findings import listing
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import before_reading
-from rosbeat.exercises.scenarios import Report, Value, report
+from rosbeat.exercises.scenarios import Answer, Report, Value, report
 
 if TYPE_CHECKING:
     from rosbeat.clinic.charts import Chart
@@ -45,6 +45,13 @@ def _claims(entry: Value) -> list[Claim] | None:
         return None
     claims = [Claim(mistake.strip(), place.strip()) for mistake, place in pairs]
     return [one for one in claims if one.mistake and BLANK not in (one.mistake, one.place)]
+
+
+def _is_begun(entry: Value) -> bool:
+    """Return whether anything is written for a patient, if only a place, or a diagnosis."""
+    if isinstance(entry, list):
+        return any(map(_is_begun, entry))
+    return isinstance(entry, str) and entry.strip() not in ("", BLANK)
 
 
 def _unreadable(value: Value, patients: Sequence[int]) -> Diagnosis | None:
@@ -154,6 +161,7 @@ def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
         f"{listing(sorted(known))} is right, and it is not the only fault.",
         "Imagine that this fault is fixed. Would the owner be satisfied? Examine the rest of the "
         "system with the same instruments.",
+        len(known) / len(chart.truths),
     )
 
 
@@ -169,7 +177,7 @@ def _judge(patients: Sequence[int], seen: Report) -> Verdict:
     if unreadable:
         return unreadable
     claims = {number: _claims(value.get(str(number), [])) or [] for number in patients}
-    if not any(claims.values()):
+    if not any(map(_is_begun, (value.get(str(number)) for number in patients))):
         return not_attempted("No patient has a diagnosis yet.")
     ward = value.get(_KEY, WARD)
     weighed = {number: weigh(_chart(ward, number), claims[number]) for number in patients}
@@ -183,11 +191,27 @@ def _judge(patients: Sequence[int], seen: Report) -> Verdict:
     evidence = [f"Patient {number}: {found.evidence}" for number, found in told]
     if right:
         evidence.insert(0, f"{head} {'are' if len(right) > 1 else 'is'} right.")
-    return Diagnosis(told[0][1].mistake, " ".join(evidence), told[0][1].hint)
+    share = (len(right) + sum(found.share for found in wrong.values())) / len(patients)
+    return Diagnosis(told[0][1].mistake, " ".join(evidence), told[0][1].hint, share)
+
+
+def _report(answer: Answer) -> Report:
+    """Call the function; the diagnoses of one patient may be a set, as their order is free."""
+
+    def in_lists() -> Value:
+        value = answer()
+        if not isinstance(value, dict):
+            return value
+        return {
+            number: sorted(entry) if isinstance(entry, set | frozenset) else entry
+            for number, entry in value.items()
+        }
+
+    return report(in_lists)
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise("10a", report, partial(_judge, range(1, 5)), "four patients, and something is silent",
+    Exercise("10a", _report, partial(_judge, range(1, 5)), "four patients, and something is silent",
         2, (
         "The owner says what is fine. Whatever those nodes need is fine, too: rule it out.",
         "`ros.graph()` first: is every name as it was ordered, letter by letter? Then "
@@ -198,7 +222,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "In ward 7: for patients 3 and 4, ask `ros.explain` about the topic of the readings, "
         "and read only its first line.",
     ), tells_hints=True),
-    Exercise("10b", report, partial(_judge, range(5, 9)), "four patients, and nothing is silent",
+    Exercise("10b", _report, partial(_judge, range(5, 9)), "four patients, and nothing is silent",
         3, (
         "All is well, says `ros.explain`: messages arrive. So look at what they say, how many "
         "they are, and who sent them.",
@@ -209,7 +233,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "In ward 7: for patient 7, count the nodes. For patient 8, draw the readings with the "
         "ordered limits as a band. How far outside the band do they get?",
     ), tells_hints=True),
-    Exercise("10c", report, partial(_judge, range(9, 12)), "three patients with two faults each",
+    Exercise("10c", _report, partial(_judge, range(9, 12)), "three patients with two faults each",
         4, (
         "Find one fault, imagine that it's fixed, and begin again at the sensor.",
         "The two faults are at different places. Go through the nodes one by one: is it "

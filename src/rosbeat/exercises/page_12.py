@@ -936,8 +936,20 @@ def _wrong_work(seen: Observation, fed: Heating, judged: Sequence[Work]) -> Diag
         describe = partial(_describe_work, points)
         found = diagnose(goal, done, right_thermostat(goal), THERMOSTATS, describe, same)
         if found:
-            return found
+            is_refused = goal.is_good and points[Work.DECISION][0] == "rejected"
+            return (is_refused and _no_decision(seen, found)) or found
     return None
+
+
+def _no_decision(seen: Observation, found: Diagnosis) -> Diagnosis | None:
+    """Say why a goal was rejected if rclpy has warned of what the callback returned."""
+    if not any("did not return a GoalResponse" in log.text for log in seen.logs):
+        return None
+    return Diagnosis(
+        "not-a-goal-response",
+        f"{found.evidence} The callback did not return a GoalResponse, and then rclpy rejects.",
+        "Each way through the callback returns one of the two values of GoalResponse.",
+    )
 
 
 def _describe_work(points: Mapping[Work, tuple[Any, str]], mismatch: Mismatch) -> Diagnosis:

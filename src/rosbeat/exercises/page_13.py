@@ -18,7 +18,7 @@ from typing import Any
 
 from rosbeat.diagnosis.connections import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
-from rosbeat.diagnosis.findings import difference, nearest
+from rosbeat.diagnosis.findings import difference, listing, nearest
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.exercise import (
     FAILED,
@@ -1046,6 +1046,9 @@ def _judge_greenhouse(trials: Trials, seed: int) -> Verdict:
     faults = [one for name, seen in trials.runs.items() if name != OTHER for one in seen.faults]
     first = _raised(faults[0]) if faults else found[missed[0]] if missed else None
     if first is None:
+        left = [part.id for part in parts if not part.met]
+        verb = "is" if len(left) == 1 else "are"
+        evidence += f" {listing(left)} {verb} optional, and missing." if left else ""
         return Outcome("13b", PASSED, evidence, parts=parts)
     evidence += f" {first.evidence}" if faults else f" Look at {missed[0]} first."
     return Outcome("13b", FAILED, evidence, first.hint, first.mistake, parts=parts)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -149,12 +150,22 @@ def _written(value: Value) -> Report:
     if value is None:
         return Report("", "", kind)
     try:
-        text = json.dumps(value)
+        text = json.dumps(_plain(value))
     except (TypeError, ValueError, RecursionError) as error:
         return Report("", f"NotPlain: {error}", kind)
     if len(text) > MOST:
         return Report("", f"NotPlain: it is {len(text)} characters long", kind)
     return Report(text, "", kind)
+
+
+def _plain(value: Value) -> Value:
+    """Return a value with Python's own numbers in the place of NumPy's."""
+    numpy = sys.modules.get("numpy")  # where nobody has imported it, nothing is of its types
+    if numpy and isinstance(value, numpy.generic):
+        return value.item()
+    if isinstance(value, dict):
+        return {_plain(key): _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 # Scenarios that look: at a workspace, or at a terminal. Nothing of a learner's is run here.

@@ -302,7 +302,7 @@ def _mark(
     mark = Mark(
         *(exercise.id, exercise.title, handed.page, outcome.status),
         *(round(points * (1 - handed.off), 2), out_of),
-        cause=cause_of(outcome),
+        cause=cause_of(outcome, is_tried=answer.is_tried),
         mistake=outcome.mistake,
         evidence=outcome.evidence,
         hint=outcome.hint,
@@ -329,12 +329,20 @@ def _mark(
     )
 
 
-def cause_of(outcome: Outcome) -> str:
-    """Return why an outcome has its points, one sentence for a table."""
+def cause_of(outcome: Outcome, *, is_tried: bool = True) -> str:
+    """Return why an outcome has its points, one sentence for a table.
+
+    Args:
+        outcome: The outcome.
+        is_tried: Whether its cells are not as they were released.
+    """
     if outcome.status == PASSED:
-        return "It does what is asked."
+        missing = [one for one in outcome.parts if not one.met]
+        said = "".join(f" Optional, and missing: {one.id} {one.text}" for one in missing)
+        return printable(f"It does what is {'required' if missing else 'asked'}.{said}", 400)
     if outcome.status == NOT_ATTEMPTED:
-        return NOT_THERE if outcome.evidence == NOT_THERE else "Nothing was tried yet."
+        is_told = is_tried or outcome.evidence == NOT_THERE
+        return (is_told and outcome.evidence) or "Nothing was tried yet."
     known = MISTAKES.get(outcome.mistake)
     first = outcome.evidence.split("\n")[0]
     if outcome.parts:

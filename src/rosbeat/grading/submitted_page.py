@@ -41,11 +41,13 @@ class Answer:
     Attributes:
         source: The cells that seem to belong to it, for a person to read.
         stored: The status that the page's own stored output says, such as `passed`; or empty.
+        is_tried: Whether a cell of it is not as the course has released it.
     """
 
     exercise: str
     source: str = ""
     stored: str = ""
+    is_tried: bool = False
 
 
 @dataclass(frozen=True)
@@ -242,7 +244,7 @@ def _answer(page: CoursePage, exercise: str, cells: Sequence[Cell]) -> Answer:
         if cell in own or defining.search(cell.source) or begin < cell.place < end
     ]
     text = "\n\n".join(cell.source for cell in chosen or own[:1])
-    return Answer(exercise, text, stored[-1] if stored else "")
+    return Answer(exercise, text, stored[-1] if stored else "", bool(chosen))
 
 
 @lru_cache(maxsize=256)

@@ -112,7 +112,13 @@ def test_the_truth_comes_from_the_greenhouse_and_is_never_told():
 def test_blanks_are_told_apart_from_wrong_findings():
     assert judged(dict.fromkeys(KEYS, "____")).status == "not attempted"
     outcome = judged({KEYS[3]: "____", KEYS[6]: ""})
-    assert outcome.status == "not attempted"
-    assert outcome.evidence.startswith("6 of 8 are found")
+    assert (outcome.status, outcome.mistake, outcome.points) == ("failed", "finding-missing", 2)
+    assert outcome.evidence.startswith("6 of 8 findings are right.")
     assert outcome.evidence.endswith(f"Still open: {KEYS[3]}, {KEYS[6]}.")
-    assert judged({KEYS[3]: "____", KEYS[6]: "/bell"}).status == "failed"
+    assert judged({KEYS[3]: "____", KEYS[6]: "/bell"}).mistake == "finding-wrong"
+
+
+@pytest.mark.parametrize(("wrong", "points"), [(0, 3), (1, 2), (2, 2), (3, 1), (5, 1), (6, 0)])
+def test_points_are_whole_and_those_of_the_findings_that_are_right(wrong, points):
+    outcome = judged(dict.fromkeys(KEYS[:wrong], "/moisture"))
+    assert (outcome.points, outcome.out_of) == (points, 3), outcome

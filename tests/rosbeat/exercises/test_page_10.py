@@ -48,7 +48,10 @@ def test_the_clinic_is_not_loaded_where_an_answer_runs():
 
 @pytest.mark.parametrize("entry", [BLANK, [], [("____", "b")], ("a", "____"), ("", "")])
 def test_a_blank_is_no_diagnosis(entry):
-    assert judged({1: entry}).status == judged({}).status == "not attempted"
+    assert judged({}).status == "not attempted"
+    # Nothing was tried only where nothing is written at all.
+    begun = entry in ([("____", "b")], ("a", "____"))
+    assert judged({1: entry}).status == ("failed" if begun else "not attempted")
     outcome = judged(RIGHT | {1: entry})
     assert outcome.mistake == "no-diagnosis-yet"
     assert outcome.evidence == "Patients 2, 3 and 4 are right. Patient 1: no diagnosis yet."

@@ -188,7 +188,12 @@ PARTS = (Part("R1", "t", True), Part("R2", "t", False))
     ("outcome", "words"),
     [
         (Outcome("03a", "passed"), "It does what is asked."),
+        (
+            Outcome("13b", "passed", parts=PARTS),
+            "It does what is required. Optional, and missing: R2",
+        ),
         (Outcome("03a", "not attempted"), "Nothing was tried yet."),
+        (Outcome("03a", "not attempted", "There is still a blank."), "There is still a blank."),
         (Outcome("03a", "failed", "One.\nTwo.", mistake="new-to-me"), "One."),
         (Outcome("03a", "failed", "One.", mistake="crashed"), "A process that crashed: One."),
         (Outcome("13b", "failed", "One.", parts=PARTS), "1 of 2 requirements are met."),
