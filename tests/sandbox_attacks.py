@@ -1,6 +1,6 @@
 """What strangers' code may try, each in a sandbox; run as a program, it tells how each ended.
 
-It is a process of its own because a sandbox is forked, and a test process has threads.
+It is also what runs inside of the sandbox, where each deed is done in a fork.
 """
 
 import ctypes
@@ -22,16 +22,19 @@ from dataclasses import replace
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.sandbox import Limits, Sandbox, View, become_able, python_folders
+from rosbeat.grading.sandbox import Sandbox, View, bubblewrap, python_folders
 from rosbeat.grading.system_calls import REFUSED, number_of
+from rosbeat.grading.worker import Limits, descendants, serve
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
 SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (0.7, 15.0))
 #: So many processes are enough to see that there are no more; more make the machine busy.
 FEW = replace(SHORT, processes=24)
 #: A folder that is shown, and one of which only one file is.
-SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {os.getpid()}") for one in "ab")
-SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
+RUN = os.environ.get("ROSBEAT_ATTACKS", str(os.getpid()))
+SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {RUN}") for one in "ab")
+SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{RUN}")
+HERE = Path(__file__).parent
 
 
 def attempt(deed):
@@ -532,48 +535,39 @@ def _limits(deed):
     return FEW if deed is forks else SHORT if deed in ENDLESS else LONG
 
 
-def kept(view):
-    """Run every deed in one sandbox, whose keeper is a process of its own."""
-    reading, writing = os.pipe()
-    keeper = os.fork()
-    if keeper:
-        os.close(writing)
-        with os.fdopen(reading) as file:
-            told = json.load(file)
-        os.waitpid(keeper, 0)
-        return told
-    try:
-        with Sandbox(view) as sandbox:
-            told = {deed.__name__: ending(sandbox.run(deed, _limits(deed))) for deed in DEEDS}
-    except GradingError as error:
-        told = {"refused": str(error)}
-    with os.fdopen(writing, "w") as file:
-        json.dump(told, file)
-    os._exit(0)
+def done(view):
+    """Do every deed, and tell how each ended, and what was left in between."""
+    with Sandbox(view, "sandbox_attacks", environment={"PYTHONPATH": str(HERE), "ROSBEAT_ATTACKS": RUN}) as sandbox:
+        return {deed.__name__: ending(sandbox.run(deed, _limits(deed))) for deed in DEEDS}
 
 
 def main():
-    """Run every deed and print how it ended, as JSON."""
-    with suppress(OSError):
-        become_able()  # the program begins again with this
+    """Do every deed and print how it ended, as JSON."""
+    import sandbox_attacks as deeds  # by this name it is known inside
+
+    bubblewrap()
     SECRET.write_text("secret")
     for folder in (SHOWN, HIDDEN):
         folder.mkdir()
         for name in ("one", "two"):
             (folder / name).write_text(name)
-    readable = (*python_folders(), str(SHOWN), str(HIDDEN / "two"))
-    view = View(readable, (), {"PATH": "/usr/bin", "HOME": "/tmp"})
-    seen = {}
+    readable = (*python_folders(), str(HERE), str(SHOWN), str(HIDDEN / "two"))
+    view = View(readable, environment={"PATH": "/usr/bin", "HOME": "/tmp"})
     try:
-        seen = kept(view)
+        seen = deeds.done(view)
     finally:
         SECRET.unlink()
         for folder in (SHOWN, HIDDEN):
             shutil.rmtree(folder)
-    mine = Path("/proc/self/task", str(os.getpid()), "children").read_text().split()
-    shared = [one for one in os.listdir("/dev/shm") if one == "mine"]
-    print(json.dumps({"seen": seen, "left": [*mine, *shared]}))
+    shared = [name for name in os.listdir("/dev/shm") if name == "mine"]
+    print(json.dumps({"seen": seen, "left": [*descendants(os.getpid()), *shared]}))
 
 
 if __name__ == "__main__":
-    main()
+    if len(sys.argv) > 1:
+        serve(int(sys.argv[1]), True, lambda: None)
+    else:
+        try:
+            main()
+        except GradingError as error:
+            print(json.dumps({"seen": {"refused": str(error)}}))

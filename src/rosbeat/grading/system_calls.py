@@ -1,45 +1,28 @@
-"""Wrap Linux system calls that Python does not provide, with names and errors in Python's style.
+"""Wrap the few Linux system calls that Python does not provide, and filter those of a sandbox.
 
 Every function that makes a call raises OSError if the kernel refuses.
 
-Sources: the Linux manual pages unshare(2), pidfd_open(2), mount(2), umount2(2), pivot_root(2),
-prctl(2), capset(2), seccomp(2), netdevice(7), and linux/filter.h for the few instructions of a
-filter; numbers that differ between architectures are in `_NUMBERS`.
+Sources: the Linux manual pages pidfd_open(2), pidfd_send_signal(2), prctl(2), clone(2), seccomp(2),
+and linux/filter.h for the few instructions of a filter; numbers that differ between architectures
+are in `_NUMBERS`.
 """
 
 from __future__ import annotations
 
 import ctypes
 import errno
-import fcntl
 import os
 import platform
+import signal
 import socket
 import struct
 from contextlib import suppress
-from pathlib import Path
-
-CLONE_NEWNS, CLONE_NEWUTS, CLONE_NEWIPC = 0x00020000, 0x04000000, 0x08000000
-CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x10000000, 0x20000000, 0x40000000
-
-MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC = 0x1, 0x2, 0x4, 0x8
-MS_REMOUNT, MS_BIND, MS_MOVE, MS_REC, MS_PRIVATE = 0x20, 0x1000, 0x2000, 0x4000, 0x40000
-MS_NOATIME, MS_NODIRATIME, MS_RELATIME = 0x400, 0x800, 0x200000
-_MNT_DETACH = 2
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER = 1, 4, 36
-_PR_CAPBSET_DROP, _PR_SET_NO_NEW_PRIVS, _PR_SET_SECCOMP = 24, 38, 22
 #: The same on all machines, as are all numbers of calls from 424 on.
-_PIDFD_OPEN = 434
-_CAPSET_VERSION = 0x20080522
-_SIOCGIFFLAGS, _SIOCSIFFLAGS, _IFF_UP = 0x8913, 0x8914, 0x1
+_PIDFD_SEND_SIGNAL, _PIDFD_OPEN = 424, 434
 
 _libc = ctypes.CDLL(None, use_errno=True)
-
-
-def unshare(flags: int) -> None:
-    """Leave namespaces and begin new ones."""
-    _checked(_libc.unshare(flags), "unshare")
 
 
 def pidfd_open(process: int) -> int:
@@ -50,80 +33,22 @@ def pidfd_open(process: int) -> int:
     Raises:
         OSError: If the kernel refuses, or is older than 5.3.
     """
-    found: int = _libc.syscall(_PIDFD_OPEN, process, 0)
-    _checked(min(found, 0), "pidfd_open")
-    return found
+    descriptor: int = _libc.syscall(_PIDFD_OPEN, process, 0)
+    _checked(min(descriptor, 0), "pidfd_open")
+    return descriptor
 
 
-def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str = "") -> None:
-    """Mount a file system.
-
-    Args:
-        source: What to mount.
-        target: Where.
-        kind: The file system's name, such as `tmpfs`; empty for binds and remounts.
-        flags: Of `MS_...`.
-        options: What that file system takes, such as `size=1m`.
-    """
-    texts = [os.fsencode(one) if one else None for one in (source, target, kind)]
-    result = _libc.mount(*texts, ctypes.c_ulong(flags), os.fsencode(options) or None)
-    _checked(result, f"mount {target}")
+def pidfd_kill(descriptor: int) -> None:
+    """End the process of a descriptor, which no other process can be taken for."""
+    with suppress(ProcessLookupError):
+        result = _libc.syscall(_PIDFD_SEND_SIGNAL, descriptor, int(signal.SIGKILL), None, 0)
+        _checked(result, "pidfd_send_signal")
 
 
-def unmount(target: str) -> None:
-    """Take a mount and all below it away, as soon as nobody uses it."""
-    _checked(_libc.umount2(os.fsencode(target), _MNT_DETACH), f"umount {target}")
-
-
-def pivot_root(new: str, old: str) -> None:
-    """Make a mount the root, and put the root of before elsewhere.
-
-    Raises:
-        OSError: If the kernel refuses, or its number of this call is not known here.
-    """
-    _checked(
-        _libc.syscall(number_of("pivot_root"), os.fsencode(new), os.fsencode(old)), "pivot_root"
-    )
-
-
-def prctl(option: int, value: int, further: int = 0) -> None:
+def prctl(option: int, value: int) -> None:
     """Change something about this process."""
-    words = [ctypes.c_ulong(one) for one in (value, further, 0, 0)]
+    words = [ctypes.c_ulong(word) for word in (value, 0, 0, 0)]
     _checked(_libc.prctl(option, *words), f"prctl {option}")
-
-
-def drop_capabilities() -> None:
-    """Give up every capability, for good: no program that is started gets one back."""
-    for number in range(64):
-        try:
-            prctl(_PR_CAPBSET_DROP, number)
-        except OSError:
-            break  # the kernel knows no more of them
-    prctl(_PR_SET_NO_NEW_PRIVS, 1)
-    header = struct.pack("Ii", _CAPSET_VERSION, 0)
-    _checked(_libc.capset(header, bytes(24)), "capset")
-
-
-def loopback_up() -> None:
-    """Switch on the loopback interface of a new network namespace."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
-        request = struct.pack("16sH14s", b"lo", 0, b"")
-        (flags,) = struct.unpack("16xH14x", fcntl.ioctl(sock, _SIOCGIFFLAGS, request))
-        fcntl.ioctl(sock, _SIOCSIFFLAGS, struct.pack("16sH14s", b"lo", flags | _IFF_UP, b""))
-
-
-def limit_tcp(most: int) -> None:
-    """Limit what the kernel keeps for each end of a TCP connection in a new network namespace.
-
-    The usual limits grow with a connection to several MB, which no process is charged for. The
-    setting is left as it is where it may not be written, as in some containers.
-
-    Args:
-        most: Bytes of each of its two buffers.
-    """
-    for name in ("tcp_rmem", "tcp_wmem"):
-        with suppress(OSError):
-            Path("/proc/sys/net/ipv4", name).write_text(f"4096 16384 {most}", encoding="ascii")
 
 
 def _checked(result: int, what: str) -> None:
@@ -138,10 +63,11 @@ def _checked(result: int, what: str) -> None:
 #: keys are kept by the kernel for a user, past all namespaces (keyrings(7)); who lets itself be
 #: traced is held by whoever waits for it; memory of `memfd_create`, of `shmget`, of queues of
 #: messages, and of what `vmsplice` puts into pipes, belongs to no process that could be asked how
-#: much it uses, and queues and semaphores outlive the processes that made them; the others widen
-#: what of the kernel is in reach.
+#: much it uses, and queues and semaphores outlive the processes that made them; in a new user
+#: namespace, anybody has all rights; the others widen what of the kernel is in reach.
 _NUMBERS = {
-    "pivot_root": (155, 41),
+    "unshare": (272, 97),
+    "setns": (308, 268),
     "add_key": (248, 217),
     "request_key": (249, 218),
     "keyctl": (250, 219),
@@ -161,6 +87,8 @@ _NUMBERS = {
     "io_uring_register": (427, 427),
     "bpf": (321, 280),
     "perf_event_open": (298, 241),
+    "clone": (56, 220),
+    "clone3": (435, 435),
     "socket": (41, 198),
     "socketpair": (53, 199),
     "setsockopt": (54, 208),
@@ -178,13 +106,17 @@ _SOCKETS = ("socket", "socketpair")
 _FOR_ONESELF = {"prlimit64": (0,), "setpriority": (0, 1)}
 #: Calls that have an effect for oneself only; the middleware makes them for its own threads.
 _SCHEDULING = ("sched_setparam", "sched_setscheduler", "sched_setaffinity", "sched_setattr")
-#: The names of all calls that a sandbox judges by what they are handed.
-_JUDGED = (*_SOCKETS, *_FOR_ONESELF, *_SCHEDULING, "setsockopt", "fcntl")
-#: The names of all calls that a sandbox refuses, whatever they are handed; `pivot_root` takes a
-#: right that nobody in there has.
-REFUSED = tuple(name for name in _NUMBERS if name not in ("pivot_root", *_JUDGED))
+#: The names of all calls that a sandbox judges by what they are handed. What `clone3` is handed, a
+#: filter cannot see: it is said to be unknown, so that the C library uses `clone`.
+_JUDGED = (*_SOCKETS, *_FOR_ONESELF, *_SCHEDULING, "setsockopt", "fcntl", "clone", "clone3")
+#: The names of all calls that a sandbox refuses, whatever they are handed.
+REFUSED = tuple(name for name in _NUMBERS if name not in _JUDGED)
+#: Flags of `clone` that make namespaces: of mounts, cgroups, names, IPC, users, processes, network.
+_NAMESPACES = (
+    0x00020000 | 0x02000000 | 0x04000000 | 0x08000000 | 0x10000000 | 0x20000000 | 0x40000000
+)
 #: Options of sockets that change the size of a buffer: SO_SNDBUF, SO_RCVBUF, and their `...FORCE`.
-#: To set them has no effect, so that no more waits in a socket than the keeper reckons with.
+#: To set them has no effect, so that no more waits in a socket than the grader reckons with.
 _SIZES = (7, 8, 32, 33)
 #: F_SETLEASE: who owns a file, as an ordinary user owns Python's, would stop others who open it.
 _LEASE = 1024
@@ -192,13 +124,12 @@ _LEASE = 1024
 _FAMILIES, _NETLINK = (socket.AF_UNIX, socket.AF_INET, socket.AF_INET6), 16
 #: Numbers of machines in linux/audit.h.
 _MACHINES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
-_LOAD, _IF_EQUAL, _IF_AT_LEAST, _RETURN = 0x20, 0x15, 0x35, 0x06
+_LOAD, _IF_EQUAL, _IF_AT_LEAST, _IF_ANY, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 _ALLOW, _REFUSE = 0x7FFF0000, 0x00050000
 #: Where in `struct seccomp_data` the call's number, the machine and its arguments are.
 _CALL, _MACHINE, _FIRST, _SECOND, _THIRD = 0, 4, 16, 24, 32
 #: From here on, numbers of x86_64 are those of another way to call (x32).
 _X32 = 0x40000000
-_FILTER = 2
 
 
 def number_of(call: str) -> int:
@@ -212,19 +143,13 @@ def number_of(call: str) -> int:
     return _NUMBERS[call][list(_MACHINES).index(platform.machine())]
 
 
-def forbid_calls() -> None:
-    """Refuse `REFUSED` and sockets that reach further to this process and all that it starts.
-
-    It is for good, and needs `PR_SET_NO_NEW_PRIVS`, which `drop_capabilities` sets.
+def filter_program() -> bytes:
+    """Return the filter of a sandbox: it refuses `REFUSED`, new namespaces, and most sockets.
 
     Raises:
-        OSError: If the kernel refuses, or the numbers for this machine are not known here.
+        OSError: If the numbers for this machine are not known here.
     """
-    steps = _steps()
-    code = ctypes.create_string_buffer(b"".join(steps), 8 * len(steps))
-    program = struct.pack("HxxxxxxQ", len(steps), ctypes.addressof(code))
-    filter_ = ctypes.create_string_buffer(program)
-    prctl(_PR_SET_SECCOMP, _FILTER, ctypes.addressof(filter_))
+    return b"".join(_steps())
 
 
 def _steps() -> list[bytes]:
@@ -236,6 +161,8 @@ def _steps() -> list[bytes]:
         *(_step(_LOAD, _MACHINE), _step(_IF_EQUAL, machine, 1, 0), _step(_RETURN, unknown)),
         *(_step(_LOAD, _CALL), _step(_IF_AT_LEAST, _X32, 0, 1), _step(_RETURN, unknown)),
         *(one for name in REFUSED for one in _returned(number_of(name), refused)),
+        *_returned(number_of("clone3"), unknown),
+        *_if_called("clone", [_step(_LOAD, _FIRST), *_of_flags(_NAMESPACES, refused)]),
         *_if_called("setsockopt", _of_options()),
         *_if_called("fcntl", [_step(_LOAD, _SECOND), *_returned(_LEASE, refused)]),
         *(
@@ -264,6 +191,11 @@ def _of_options() -> list[bytes]:
         *(_step(_RETURN, _ALLOW), _step(_LOAD, _THIRD)),
         *(one for option in _SIZES for one in _returned(option, _REFUSE)),
     ]
+
+
+def _of_flags(flags: int, verdict: int) -> tuple[bytes, bytes]:
+    """Return two steps: a verdict if what was loaded has one of the flags; else what comes next."""
+    return _step(_IF_ANY, flags, 0, 1), _step(_RETURN, verdict)
 
 
 def _of_oneself(places: tuple[int, ...], verdict: int) -> list[bytes]:
