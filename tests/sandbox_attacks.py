@@ -24,7 +24,7 @@ from pathlib import Path
 from rosbeat.errors import GradingError
 from rosbeat.grading.sandbox import Sandbox, View, bubblewrap, python_folders
 from rosbeat.grading.system_calls import REFUSED, number_of
-from rosbeat.grading.worker import Limits, descendants, serve
+from rosbeat.grading.worker import UNSAFE, Limits, descendants, serve
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
 SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (0.7, 15.0))
@@ -493,6 +493,69 @@ def looks_around(result):
     })  # fmt: skip
 
 
+def counts_forks(result):
+    """Have as many processes as there can be."""
+    number = 0
+    with suppress(BlockingIOError):
+        while number < 1000:
+            if os.fork() == 0:
+                time.sleep(1000)
+            number += 1
+    tells(result, {"processes": number})
+
+
+def fills_with_small_files(result):
+    for folder in range(10_000):
+        os.mkdir(f"/tmp/{folder}")
+        for name in range(100):
+            open(f"/tmp/{folder}/{name}", "x").close()
+
+
+def digs_deep(result):
+    """Leave folders in folders that nobody removes by their path."""
+    for _ in range(3_000):
+        os.mkdir("deeper")
+        os.chdir("deeper")
+
+
+def changes_the_folders(result):
+    """Leave something on the folders themselves; root's they cannot change."""
+    tells(result, {
+        "mode": attempt(lambda: os.chmod("/tmp", 0o700)),
+        "attribute": attempt(lambda: os.setxattr("/dev/shm", "user.left", b"left")),
+        "moved": attempt(lambda: os.rename(SHOWN, "/tmp/elsewhere")),
+        "folder": attempt(lambda: os.mkdir("/tmp/locked", 0)),
+    })  # fmt: skip
+
+
+def finds_folders(result):
+    tells(result, {
+        "modes": [oct(os.stat(path).st_mode) for path in ("/tmp", "/dev/shm")],
+        "attributes": [os.listxattr(path) for path in ("/tmp", "/dev/shm")],
+        "there": sorted(os.listdir("/tmp")),
+    })  # fmt: skip
+
+
+def waits(result):
+    """Tell that it has begun, and do nothing more."""
+    os.write(result, b"begun")
+    time.sleep(1000)
+
+
+def looks_at_its_place(result):
+    tells(result, {"here": os.getcwd(), "environment": dict(os.environ)})
+
+
+def leaves_a_process(result):
+    told, tells_ = os.pipe()
+    if os.fork() == 0:
+        os.setsid()
+        tells(result, {"left": os.getpid()})
+        os.write(tells_, b".")
+        time.sleep(600)
+    os.read(told, 1)
+
+
 def ignores_signals(result):
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
@@ -512,7 +575,8 @@ DEEDS = (
     *(keeps_a_few_sockets_in_many_processes, asks_for_larger_buffers, fills_tables_of_pages),
     *(maps_in_many_pieces, keeps_pages_in_pipes, makes_namespaces, mounts_in_new_ways),
     *(reaches_init, opens_by_handle, holds_a_lease, stops_itself, adopts_daemons),
-    *(waits_for_a_child_that_borrows_its_memory, hides_and_eats),
+    *(waits_for_a_child_that_borrows_its_memory, hides_and_eats, counts_forks),
+    *(fills_with_small_files, digs_deep, changes_the_folders, finds_folders),
 )
 
 
@@ -532,12 +596,20 @@ ENDLESS = (
 
 
 def _limits(deed):
-    return FEW if deed is forks else SHORT if deed in ENDLESS else LONG
+    if deed in (forks, counts_forks):
+        return FEW if deed is forks else replace(LONG, processes=24)
+    return SHORT if deed in ENDLESS else LONG
+
+
+def sandbox_of(view, isolated=True):
+    """Return a sandbox in which deeds of this module are done."""
+    given = {"PYTHONPATH": str(HERE), "ROSBEAT_ATTACKS": RUN}
+    return Sandbox(view, "sandbox_attacks", isolated, given)
 
 
 def done(view):
-    """Do every deed, and tell how each ended, and what was left in between."""
-    with Sandbox(view, "sandbox_attacks", environment={"PYTHONPATH": str(HERE), "ROSBEAT_ATTACKS": RUN}) as sandbox:
+    """Do every deed, and tell how each ended."""
+    with sandbox_of(view) as sandbox:
         return {deed.__name__: ending(sandbox.run(deed, _limits(deed))) for deed in DEEDS}
 
 
@@ -565,7 +637,7 @@ def main():
 
 if __name__ == "__main__":
     if len(sys.argv) > 1:
-        serve(int(sys.argv[1]), True, lambda: None)
+        serve(int(sys.argv[1]), UNSAFE not in sys.argv, lambda: None)
     else:
         try:
             main()
