@@ -258,6 +258,8 @@ _PREPARED = (
     *("rosbeat.page_session", "rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
     *("IPython.core.interactiveshell", "rosbeat.exercises.registry", "rosbeat.exercises.check"),
     *("rosbeat.workspace.terminals", "rosbeat.workspace.magics", "rosbeat.workspace.saving_magic"),
+    *("rosbeat.exercises.quiz", "rosbeat.exercises.predict", "rosbeat.viz.diagrams"),
+    *("matplotlib.backends.backend_svg", "pygments.lexers.python", "IPython.core.magics"),
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (
