@@ -637,7 +637,7 @@ def main():
 
 if __name__ == "__main__":
     if len(sys.argv) > 1:
-        serve(int(sys.argv[1]), UNSAFE not in sys.argv, lambda: None)
+        serve(int(sys.argv[-1]), UNSAFE not in sys.argv, lambda: None)
     else:
         try:
             main()

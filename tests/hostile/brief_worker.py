@@ -19,4 +19,4 @@ def prepare():
 
 
 if __name__ == "__main__":
-    worker.serve(int(sys.argv[1]), worker.UNSAFE not in sys.argv, prepare)
+    worker.serve(int(sys.argv[-1]), worker.UNSAFE not in sys.argv, prepare)

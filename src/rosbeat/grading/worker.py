@@ -28,7 +28,6 @@ from pathlib import Path
 from typing import NoReturn
 
 from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import Earlier, PageJob
 
 MB = 1_000_000
 #: What makes a worker run answers without a sandbox.
@@ -39,6 +38,8 @@ READY = b"ready"
 SCRATCH = ("/tmp", "/dev/shm")
 #: What is run; it gets the descriptor to which it writes its result.
 Work = Callable[[int], None]
+#: What root may still do as process 1: end works, become their user, remove their files.
+RIGHTS = ("CAP_DAC_OVERRIDE", "CAP_KILL", "CAP_SETGID", "CAP_SETUID", "CAP_SETPCAP")
 #: `__WALL` of wait(2): also children that say nothing when they end.
 _ALL = 0x40000000
 
@@ -81,6 +82,23 @@ class Limits:
             _, hard = resource.getrlimit(what)
             bound = most if hard == resource.RLIM_INFINITY else min(most, hard)
             resource.setrlimit(what, (bound, bound))
+
+
+@dataclass(frozen=True)
+class Order:
+    """Say what is run.
+
+    Attributes:
+        work: The function.
+        limits: What it may use.
+        environment: Its whole environment.
+        user: Who it is, where process 1 is root; else 0.
+    """
+
+    work: Work
+    limits: Limits
+    environment: Mapping[str, str]
+    user: int = 0
 
 
 def descendants(process: int) -> list[int]:
@@ -214,28 +232,27 @@ def _be_work(descriptors: Sequence[int], folder: str) -> NoReturn:
     code = 1
     order, to_result, to_output = descriptors
     try:
-        # Who ends process 1 ends this, and without a sandbox too.
-        system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
-        system_calls.prctl(system_calls.PR_SET_DUMPABLE, 1)
         os.setsid()
         os.chdir(folder)
         os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
         os.dup2(to_output, 1)
         os.dup2(to_output, 2)
-        limits: Limits
-        environment: Mapping[str, str]
-        work: Work
         with os.fdopen(order, "rb", closefd=False) as file:
-            limits, environment, work = pickle.load(file)
+            loaded: Order = pickle.load(file)
         result = os.dup2(to_result, 3, inheritable=False)
         os.closerange(4, os.sysconf("SC_OPEN_MAX"))
         signal.signal(signal.SIGINT, signal.default_int_handler)
         os.environ.clear()
-        os.environ.update(environment)
+        os.environ.update(loaded.environment)
         if folder not in SCRATCH:
             os.environ.update(HOME=folder, TMPDIR=folder)
-        limits.apply()
-        work(result)
+        if loaded.user:
+            system_calls.become(loaded.user)
+        # A change of the user undoes it. Who ends process 1 ends this, without a sandbox too.
+        system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
+        system_calls.prctl(system_calls.PR_SET_DUMPABLE, 1)
+        loaded.limits.apply()
+        loaded.work(result)
         code = 0
     except SystemExit as error:
         code = error.code if isinstance(error.code, int) else 1
@@ -258,8 +275,8 @@ _PREPARED = (
     *("rosbeat.page_session", "rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
     *("IPython.core.interactiveshell", "rosbeat.exercises.registry", "rosbeat.exercises.check"),
     *("rosbeat.workspace.terminals", "rosbeat.workspace.magics", "rosbeat.workspace.saving_magic"),
-    *("rosbeat.exercises.quiz", "rosbeat.exercises.predict", "rosbeat.viz.diagrams"),
-    *("matplotlib.backends.backend_svg", "pygments.lexers.python", "IPython.core.magics"),
+    *("IPython.core.magics", "pygments.lexers.python", "rosbeat.exercises.quiz"),
+    "rosbeat.exercises.predict",
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (
@@ -288,18 +305,13 @@ def prepare() -> None:
     gc.set_threshold(20_000, 20, 20)
 
 
-def run_page(job: PageJob, earlier: Earlier, seal: str, result: int) -> None:
-    """Run a page: see `page_process`, which is only imported inside, as it imports ROS."""
-    importlib.import_module("rosbeat.grading.page_process").run_page(job, earlier, seal, result)
-
-
 def main(words: Sequence[str]) -> None:
     """Run pages as they are ordered.
 
     Args:
-        words: The number of the socket's descriptor, and `UNSAFE` if there is no sandbox.
+        words: `UNSAFE` if there is no sandbox, and the number of the socket's descriptor.
     """
-    serve(int(words[0]), UNSAFE not in words, prepare)
+    serve(int(words[-1]), UNSAFE not in words, prepare)
 
 
 if __name__ == "__main__":

@@ -301,7 +301,7 @@ def fakes(monkeypatch):
     """The sandboxes that workers have made, which do what the cell of a page says."""
     made = []
 
-    def make(view, name, isolated, environment, patience):
+    def make(view, name, isolated, environment):
         made.append(FakeSandbox(isolated))
         return made[-1]
 
@@ -342,9 +342,10 @@ def test_a_sandbox_that_cannot_start_or_be_made_is_no_fault_of_an_answer(fakes, 
         done(pool, "job", "refuse", "job2")
     says(caught.value, "No sandbox.", "Nothing was run.", "Try this.")
     assert fakes[0].words == ["job", "refuse"]
-    with Pool(1) as pool, pytest.raises(GradingError) as caught:
+    with Pool(1) as pool:
         fakes[1].never_starts = True
-        done(pool, "job")
+        with pytest.raises(GradingError) as caught:
+            done(pool, "job")
     says(caught.value, "does not start", "course doctor")
     assert fakes[1].words == []
 
@@ -429,10 +430,6 @@ def test_what_is_prepared_is_all_that_an_answer_needs():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stdout.splitlines()[-1:] == ["4 []"], done.stderr
-    # Whoever grades imports nothing of ROS.
-    program = "import rosbeat.grading.pool, sys\nprint({'rclpy', 'numpy'} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert done.stdout.strip() == "set()", done.stderr
 
 
 @pytest.fixture
@@ -488,9 +485,9 @@ def test_it_ends_with_whoever_has_started_it(unsafe, eventually):
         "import sys\nfrom rosbeat.grading.pool import Pool\n"
         "from rosbeat.grading.jobs import PageCell, PageJob\n"
         "sleeps = PageCell('import time\\ntime.sleep(600)', 1, '03a')\n"
+        "pages = [PageJob('03', cells, {'03a': 'x'}) for cells in ((), (sleeps,))]\n"
         f"with Pool(1, {unsafe}) as pool:\n"
-        "    pages = [[(0, PageJob('03', (), {'03a': 'x'})), (1, PageJob('03', (sleeps,), {'03a': 'x'}))]]\n"
-        "    for _ in pool.observe(pages):\n"
+        "    for _ in pool.observe([list(enumerate(pages))]):\n"
         "        print(*pool.pids, flush=True)\n"
     )
     parent = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)

@@ -127,7 +127,8 @@ def test_the_ending_says_more(seen):
 def test_the_first_process_cannot_be_looked_into_or_ended(seen):
     told = seen["looks_around"]["told"]
     assert told["root"] == told["environment"] == told["memory"] == "PermissionError"
-    assert told["alive"] == told["signal"] == "done"  # it hears no signal from in there
+    # It is another user, or hears no signal from in there.
+    assert {told["alive"], told["signal"]} in ({"done"}, {"PermissionError"})
     assert told["session"]
     assert told["python"] in ("OSError", "PermissionError")  # it stays as it is
     assert set(told["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
@@ -191,7 +192,7 @@ def test_no_namespace_and_no_mount_is_made_in_any_way(seen):
 def test_the_first_process_cannot_be_starved_or_slowed(seen):
     told = seen["reaches_init"]["told"]
     assert told.pop("my own") == ["done", "done"]
-    assert told.pop("signal") == 0  # it does not hear it
+    assert told.pop("signal") in (0, -1)  # it does not hear it
     assert told.pop("time") == ["done", os.SCHED_OTHER]  # it has no effect
     assert told.pop("processor") == ["done", len(os.sched_getaffinity(0))]
     assert set(told.values()) == {-1, "PermissionError"}
