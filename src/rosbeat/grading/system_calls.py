@@ -1,10 +1,10 @@
 """Wrap the few Linux system calls that Python does not provide, and filter those of a sandbox.
 
-Every function that makes a call raises OSError if the kernel refuses.
+Every function that makes a call raises OSError if the kernel refuses. Libseccomp writes the filter;
+Debian and Ubuntu have it always, as apt needs it.
 
 Sources: the Linux manual pages pidfd_open(2), pidfd_send_signal(2), prctl(2), capset(2), clone(2),
-seccomp(2), and linux/filter.h for the few instructions of a filter; numbers that differ between
-architectures are in `_NUMBERS`.
+and seccomp(2), and of libseccomp seccomp_rule_add(3), seccomp_attr_set(3), seccomp_export_bpf(3).
 """
 
 from __future__ import annotations
@@ -12,11 +12,14 @@ from __future__ import annotations
 import ctypes
 import errno
 import os
-import platform
 import signal
 import socket
 import struct
+import tempfile
+from collections.abc import Iterator
 from contextlib import suppress
+from functools import cache
+from typing import Any
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER = 1, 4, 36
 _PR_CAPBSET_DROP, _CAPSET_VERSION = 24, 0x20080522
@@ -71,62 +74,26 @@ def _checked(result: int, what: str) -> None:
 
 # The filter of system calls.
 
-#: Numbers of calls on x86_64 and on aarch64. `REFUSED` are those that a sandbox refuses always:
-#: keys are kept by the kernel for a user, past all namespaces (keyrings(7)); who lets itself be
-#: traced is held by whoever waits for it; memory of `memfd_create`, of `shmget`, of queues of
-#: messages, and of what `vmsplice` puts into pipes, belongs to no process that could be asked how
-#: much it uses, and queues and semaphores outlive the processes that made them; in a new user
-#: namespace, anybody has all rights; the others widen what of the kernel is in reach.
-_NUMBERS = {
-    "unshare": (272, 97),
-    "setns": (308, 268),
-    "add_key": (248, 217),
-    "request_key": (249, 218),
-    "keyctl": (250, 219),
-    "ptrace": (101, 117),
-    "process_vm_readv": (310, 270),
-    "process_vm_writev": (311, 271),
-    "memfd_create": (319, 279),
-    "memfd_secret": (447, 447),
-    "shmget": (29, 194),
-    "msgget": (68, 186),
-    "semget": (64, 190),
-    "mq_open": (240, 180),
-    "vmsplice": (278, 75),
-    "userfaultfd": (323, 282),
-    "io_uring_setup": (425, 425),
-    "io_uring_enter": (426, 426),
-    "io_uring_register": (427, 427),
-    "bpf": (321, 280),
-    "perf_event_open": (298, 241),
-    "clone": (56, 220),
-    "clone3": (435, 435),
-    "socket": (41, 198),
-    "socketpair": (53, 199),
-    "setsockopt": (54, 208),
-    "fcntl": (72, 25),
-    "prlimit64": (302, 261),
-    "setpriority": (141, 140),
-    "sched_setparam": (142, 118),
-    "sched_setscheduler": (144, 119),
-    "sched_setaffinity": (203, 122),
-    "sched_setattr": (314, 274),
-}
-_SOCKETS = ("socket", "socketpair")
-#: Calls that may be made for oneself only, with the places of the arguments that have to be 0: init
-#: is of the same user, and without memory or time it would end, or be late.
+#: Calls that a sandbox refuses always: keys are kept by the kernel for a user, past all namespaces
+#: (keyrings(7)); who lets itself be traced is held by whoever waits for it; memory of
+#: `memfd_create`, of `shmget`, of queues of messages, and of what `vmsplice` puts into pipes,
+#: belongs to no process that could be asked how much it uses, and queues and semaphores outlive the
+#: processes that made them; in a new user namespace, anybody has all rights; the others widen what
+#: of the kernel is in reach.
+REFUSED = (
+    *("unshare", "setns", "add_key", "request_key", "keyctl"),
+    *("ptrace", "process_vm_readv", "process_vm_writev"),
+    *("memfd_create", "memfd_secret", "shmget", "msgget", "semget", "mq_open", "vmsplice"),
+    *("userfaultfd", "io_uring_setup", "io_uring_enter", "io_uring_register"),
+    *("bpf", "perf_event_open"),
+)
+#: Calls that may be made for oneself only, with the places of the arguments that have to be 0:
+#: process 1 may be of the same user, and without memory or time it would end, or be late.
 _FOR_ONESELF = {"prlimit64": (0,), "setpriority": (0, 1)}
 #: Calls that have an effect for oneself only; the middleware makes them for its own threads.
 _SCHEDULING = ("sched_setparam", "sched_setscheduler", "sched_setaffinity", "sched_setattr")
-#: The names of all calls that a sandbox judges by what they are handed. What `clone3` is handed, a
-#: filter cannot see: it is said to be unknown, so that the C library uses `clone`.
-_JUDGED = (*_SOCKETS, *_FOR_ONESELF, *_SCHEDULING, "setsockopt", "fcntl", "clone", "clone3")
-#: The names of all calls that a sandbox refuses, whatever they are handed.
-REFUSED = tuple(name for name in _NUMBERS if name not in _JUDGED)
 #: Flags of `clone` that make namespaces: of mounts, cgroups, names, IPC, users, processes, network.
-_NAMESPACES = (
-    0x00020000 | 0x02000000 | 0x04000000 | 0x08000000 | 0x10000000 | 0x20000000 | 0x40000000
-)
+_NAMESPACES = (17, 25, 26, 27, 28, 29, 30)
 #: Options of sockets that change the size of a buffer: SO_SNDBUF, SO_RCVBUF, and their `...FORCE`.
 #: To set them has no effect, so that no more waits in a socket than the grader reckons with.
 _SIZES = (7, 8, 32, 33)
@@ -134,95 +101,99 @@ _SIZES = (7, 8, 32, 33)
 _LEASE = 1024
 #: Address families of sockets. Netlink's first protocol lists interfaces, which DDS asks for.
 _FAMILIES, _NETLINK = (socket.AF_UNIX, socket.AF_INET, socket.AF_INET6), 16
-#: Numbers of machines in linux/audit.h.
-_MACHINES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
-_LOAD, _IF_EQUAL, _IF_AT_LEAST, _IF_ANY, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
-_ALLOW, _REFUSE = 0x7FFF0000, 0x00050000
-#: Where in `struct seccomp_data` the call's number, the machine and its arguments are.
-_CALL, _MACHINE, _FIRST, _SECOND, _THIRD = 0, 4, 16, 24, 32
-#: From here on, numbers of x86_64 are those of another way to call (x32).
-_X32 = 0x40000000
+#: What the kernel does with a call: refuses it with an error of this number, or lets it be.
+_ERROR, _ALLOW = 0x00050000, 0x7FFF0000
+#: How an argument is compared: two of them with all 64 bits, the last after a mask.
+_NOT_EQUAL, _GREATER, _MASKED = 1, 6, 7
+#: What happens to calls of other machines, such as those of 32 bits.
+_OTHER_MACHINES = 2
+
+
+class _Comparison(ctypes.Structure):
+    """Be libseccomp's `struct scmp_arg_cmp`: which argument is compared, how, and with what."""
+
+    _fields_ = (
+        ("place", ctypes.c_uint),
+        ("how", ctypes.c_int),
+        ("first", ctypes.c_uint64),
+        ("second", ctypes.c_uint64),
+    )
+
+
+def _is(place: int, value: int, bits: int = 0xFFFFFFFF) -> _Comparison:
+    """Compare those bits of an argument that the kernel looks at."""
+    return _Comparison(place, _MASKED, bits, value)
+
+
+@cache
+def _libseccomp() -> ctypes.CDLL:
+    library = ctypes.CDLL("libseccomp.so.2")
+    library.seccomp_init.restype = ctypes.c_void_p
+    return library
 
 
 def number_of(call: str) -> int:
     """Return the number of a system call on this machine.
 
     Raises:
-        OSError: If this machine's numbers are not known here.
+        OSError: If there is no libseccomp, or it does not know the call.
     """
-    if platform.machine() not in _MACHINES:
-        raise OSError(errno.ENOSYS, f"{call} is not known on {platform.machine()}")
-    return _NUMBERS[call][list(_MACHINES).index(platform.machine())]
+    number: int = _libseccomp().seccomp_syscall_resolve_name(call.encode())
+    if number == -1:
+        raise OSError(errno.ENOSYS, f"libseccomp does not know {call}")
+    return number
 
 
+@cache
 def filter_program() -> bytes:
     """Return the filter of a sandbox: it refuses `REFUSED`, new namespaces, and most sockets.
 
     Raises:
-        OSError: If the numbers for this machine are not known here.
+        OSError: If there is no libseccomp, or it is too old.
     """
-    return b"".join(_steps())
+    library = _libseccomp()
+    context = ctypes.c_void_p(library.seccomp_init(_ALLOW))
+    try:
+        unknown = ctypes.c_uint32(_ERROR | errno.ENOSYS)
+        _accepted(library.seccomp_attr_set(context, _OTHER_MACHINES, unknown))
+        for call, error, *comparisons in _rules():
+            array = (_Comparison * len(comparisons))(*comparisons)
+            action, number = ctypes.c_uint32(_ERROR | error), number_of(call)
+            _accepted(
+                library.seccomp_rule_add_array(context, action, number, len(comparisons), array)
+            )
+        with tempfile.TemporaryFile() as file:
+            _accepted(library.seccomp_export_bpf(context, file.fileno()))
+            file.seek(0)
+            return file.read()
+    finally:
+        library.seccomp_release(context)
 
 
-def _steps() -> list[bytes]:
-    """Return the filter: other machines' calls are not there, those named are not permitted."""
-    unknown, refused = _REFUSE | errno.ENOSYS, _REFUSE | errno.EPERM
-    machine = _MACHINES.get(platform.machine(), 0)
-    sockets = [number_of(name) for name in _SOCKETS]
-    return [
-        *(_step(_LOAD, _MACHINE), _step(_IF_EQUAL, machine, 1, 0), _step(_RETURN, unknown)),
-        *(_step(_LOAD, _CALL), _step(_IF_AT_LEAST, _X32, 0, 1), _step(_RETURN, unknown)),
-        *(one for name in REFUSED for one in _returned(number_of(name), refused)),
-        *_returned(number_of("clone3"), unknown),
-        *_if_called("clone", [_step(_LOAD, _FIRST), *_of_flags(_NAMESPACES, refused)]),
-        *_if_called("setsockopt", _of_options()),
-        *_if_called("fcntl", [_step(_LOAD, _SECOND), *_returned(_LEASE, refused)]),
-        *(
-            one
-            for name, places in _FOR_ONESELF.items()
-            for one in _if_called(name, _of_oneself(places, refused))
-        ),
-        *(one for name in _SCHEDULING for one in _if_called(name, _of_oneself((0,), _REFUSE))),
-        *(_step(_IF_EQUAL, sockets[0], 2, 0), _step(_IF_EQUAL, sockets[1], 1, 0)),
-        *(_step(_RETURN, _ALLOW), _step(_LOAD, _FIRST)),
-        *(one for family in _FAMILIES for one in _returned(family, _ALLOW)),
-        *(_step(_IF_EQUAL, _NETLINK, 0, 3), _step(_LOAD, _THIRD), *_returned(0, _ALLOW)),
-        _step(_RETURN, _REFUSE | errno.EAFNOSUPPORT),
-    ]
+def _accepted(result: int) -> None:
+    if result < 0:
+        raise OSError(-result, f"libseccomp: {os.strerror(-result)}")
 
 
-def _if_called(name: str, steps: list[bytes]) -> list[bytes]:
-    """Return steps for one call, which is allowed if they come to their end."""
-    return [_step(_IF_EQUAL, number_of(name), 0, len(steps) + 1), *steps, _step(_RETURN, _ALLOW)]
-
-
-def _of_options() -> list[bytes]:
-    """Return what is done with `setsockopt`: sizes of buffers are taken for set, and are not."""
-    return [
-        *(_step(_LOAD, _SECOND), _step(_IF_EQUAL, socket.SOL_SOCKET, 1, 0)),
-        *(_step(_RETURN, _ALLOW), _step(_LOAD, _THIRD)),
-        *(one for option in _SIZES for one in _returned(option, _REFUSE)),
-    ]
-
-
-def _of_flags(flags: int, verdict: int) -> tuple[bytes, bytes]:
-    """Return two steps: a verdict if what was loaded has one of the flags; else what comes next."""
-    return _step(_IF_ANY, flags, 0, 1), _step(_RETURN, verdict)
-
-
-def _of_oneself(places: tuple[int, ...], verdict: int) -> list[bytes]:
-    """Return the steps with a verdict on a call for any other process or thread."""
-    each = [
-        (_step(_LOAD, _FIRST + 8 * place), _step(_IF_EQUAL, 0, 1, 0), _step(_RETURN, verdict))
-        for place in places
-    ]
-    return [one for some in each for one in some]
-
-
-def _returned(value: int, verdict: int) -> tuple[bytes, bytes]:
-    """Return two steps: a verdict if what was loaded is a value; else what comes next."""
-    return _step(_IF_EQUAL, value, 0, 1), _step(_RETURN, verdict)
-
-
-def _step(code: int, value: int, if_so: int = 0, if_not: int = 0) -> bytes:
-    return struct.pack("HBBI", code, if_so, if_not, value)
+def _rules() -> Iterator[tuple[Any, ...]]:
+    """Give calls, the error that they end with, and for which arguments; 0 is no error."""
+    for call in REFUSED:
+        yield call, errno.EPERM
+    # A filter cannot see what it is handed: it is said to be unknown, so that the C library uses
+    # `clone`.
+    yield "clone3", errno.ENOSYS
+    for bit in _NAMESPACES:
+        yield "clone", errno.EPERM, _is(0, 1 << bit, 1 << bit)
+    for option in _SIZES:
+        yield "setsockopt", 0, _is(1, socket.SOL_SOCKET), _is(2, option)
+    yield "fcntl", errno.EPERM, _is(1, _LEASE)
+    for call, places in _FOR_ONESELF.items():
+        for place in places:
+            yield call, errno.EPERM, _Comparison(place, _NOT_EQUAL, 0)
+    for call in _SCHEDULING:
+        yield call, 0, _Comparison(0, _NOT_EQUAL, 0)
+    for call in ("socket", "socketpair"):
+        for family in set(range(_NETLINK)) - set(_FAMILIES):
+            yield call, errno.EAFNOSUPPORT, _is(0, family)
+        yield call, errno.EAFNOSUPPORT, _Comparison(0, _GREATER, _NETLINK)
+        yield call, errno.EAFNOSUPPORT, _is(0, _NETLINK), _Comparison(2, _NOT_EQUAL, 0)

@@ -1,8 +1,8 @@
 """Run inside a sandbox: import once what pages need, then fork for each run of a page.
 
 `python -m rosbeat.grading.worker DESCRIPTOR` is process 1 of a sandbox, whose outside is `sandbox`.
-Over the socket that it inherits it gets orders: a file with the limits, the environment and the
-function, and the pipes for its result and for what it prints. It answers with how the fork ended.
+Over the socket that it inherits it gets orders, each as a file, and the pipe for the result. It
+answers with how the fork ended.
 
 Process 1 never runs anything of a learner, hears no signal from inside, and lets nobody look into
 it. ROS itself is only started in forks: a context of this process would not work there.
@@ -55,7 +55,6 @@ class Limits:
         address_space: Bytes of address space of each process; libraries take hundreds of MB.
         processes: Processes and threads.
         file: Bytes of one file.
-        output: Bytes that are read of what it prints.
         result: Bytes that are read of its result.
     """
 
@@ -65,7 +64,6 @@ class Limits:
     address_space: int = 4_000 * MB
     processes: int = 128
     file: int = 50 * MB
-    output: int = 64_000
     result: int = 40 * MB
 
     def apply(self) -> None:
@@ -135,30 +133,32 @@ def serve(descriptor: int, isolated: bool, prepare: Callable[[], object]) -> Non
     if not isolated:
         system_calls.prctl(system_calls.PR_SET_CHILD_SUBREAPER, 1)
     prepare()
-    place = _Scratch() if isolated else None
+    folders = [os.open(path, os.O_RDONLY | os.O_DIRECTORY) for path in SCRATCH if isolated]
+    first = [set(os.listdir(folder)) for folder in folders]
     with socket.socket(fileno=descriptor) as control:
-        socket.send_fds(control, [READY], place.folders if place else [])
+        socket.send_fds(control, [READY], folders)
         while True:
-            _, descriptors, _, _ = socket.recv_fds(control, 100, 3, socket.MSG_CMSG_CLOEXEC)
-            if len(descriptors) < 3:
+            _, descriptors, _, _ = socket.recv_fds(control, 100, 2, socket.MSG_CMSG_CLOEXEC)
+            if len(descriptors) < 2:
                 return
-            if place:
-                code = _forked(descriptors, "/tmp", _kill_all)
-                is_clean = place.is_emptied()
+            with os.fdopen(descriptors[0], "rb") as file:
+                order: Order = pickle.load(file)
+            if isolated:
+                code = _forked(order, descriptors[1], "/tmp", _kill_all)
+                for path, names in zip(SCRATCH, first, strict=True):
+                    _empty(path, names)
             else:
                 with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-                    code = _forked(descriptors, folder, _kill_descendants)
-                is_clean = True
-            control.send(f"{code} {'clean' if is_clean else 'dirty'}".encode())
+                    code = _forked(order, descriptors[1], folder, _kill_descendants)
+            control.send(str(code).encode())
 
 
-def _forked(descriptors: Sequence[int], folder: str, kill_all: Callable[[], None]) -> int:
+def _forked(order: Order, result: int, folder: str, kill_all: Callable[[], None]) -> int:
     """Run an order, and end all that it leaves; return its exit code, or less a signal."""
     child = os.fork()
     if child == 0:
-        _be_work(descriptors, folder)
-    for descriptor in descriptors:
-        os.close(descriptor)
+        _be_work(order, result, folder)
+    os.close(result)
     process, status = 0, 0
     while process != child:  # whatever else loses its parent in there is this process's child, too
         process, status = os.waitpid(-1, _ALL)
@@ -167,6 +167,21 @@ def _forked(descriptors: Sequence[int], folder: str, kill_all: Callable[[], None
             kill_all()
             os.waitpid(-1, _ALL)
     return os.waitstatus_to_exitcode(status)
+
+
+def _empty(folder: str, names: set[str]) -> None:
+    """Remove what a work has written; whoever started this looks whether that was all.
+
+    Args:
+        folder: The folder.
+        names: What was in it at first.
+    """
+    with suppress(OSError, RecursionError):
+        for entry in list(os.scandir(folder)):
+            if entry.name not in names and entry.is_dir(follow_symlinks=False):
+                shutil.rmtree(entry.path)
+            elif entry.name not in names:
+                os.unlink(entry.path)
 
 
 def _kill_all() -> None:
@@ -180,88 +195,36 @@ def _kill_descendants() -> None:
             os.kill(process, signal.SIGKILL)
 
 
-class _Scratch:
-    """Empty the folders to which works write.
-
-    What cannot be removed, or has changed of the folders themselves, is left to whoever started
-    this sandbox, who ends it then.
-    """
-
-    def __init__(self) -> None:
-        self.folders = [os.open(path, os.O_RDONLY | os.O_DIRECTORY) for path in SCRATCH]
-        self._first = self._paths()
-
-    def _paths(self) -> dict[str, tuple[int, int, int, list[str]]]:
-        """Return all that is there, with its rights, but not what is mounted in there."""
-        found = {}
-        left = list(SCRATCH)
-        while left:
-            path = left.pop()
-            status = os.lstat(path)
-            attributes = os.listxattr(path, follow_symlinks=False)
-            found[path] = (status.st_dev, status.st_ino, status.st_mode, attributes)
-            if os.path.isdir(path) and (path in SCRATCH or not os.path.ismount(path)):
-                left += [f"{path}/{name}" for name in os.listdir(path)]
-        return found
-
-    def is_emptied(self) -> bool:
-        """Remove what a work has written; return whether all is as it was at first."""
-        try:
-            for path in self._first:
-                if os.path.isdir(path) and (path in SCRATCH or not os.path.ismount(path)):
-                    self._empty(path)
-            return self._paths() == self._first
-        except (OSError, RecursionError):
-            return False
-
-    def _empty(self, folder: str) -> None:
-        for entry in list(os.scandir(folder)):
-            if entry.path in self._first:
-                continue
-            if entry.is_dir(follow_symlinks=False):
-                shutil.rmtree(entry.path)
-            else:
-                os.unlink(entry.path)
-
-
 # The fork.
 
 
-def _be_work(descriptors: Sequence[int], folder: str) -> NoReturn:
+def _be_work(order: Order, result: int, folder: str) -> NoReturn:
     """Be the work, with nothing of what this process was; for good."""
     code = 1
-    order, to_result, to_output = descriptors
     try:
         os.setsid()
         os.chdir(folder)
-        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
-        os.dup2(to_output, 1)
-        os.dup2(to_output, 2)
-        with os.fdopen(order, "rb", closefd=False) as file:
-            loaded: Order = pickle.load(file)
-        result = os.dup2(to_result, 3, inheritable=False)
+        null = os.open(os.devnull, os.O_RDWR)
+        for descriptor in range(3):
+            os.dup2(null, descriptor)
+        result = os.dup2(result, 3, inheritable=False)
         os.closerange(4, os.sysconf("SC_OPEN_MAX"))
         signal.signal(signal.SIGINT, signal.default_int_handler)
         os.environ.clear()
-        os.environ.update(loaded.environment)
+        os.environ.update(order.environment)
         if folder not in SCRATCH:
             os.environ.update(HOME=folder, TMPDIR=folder)
-        if loaded.user:
-            system_calls.become(loaded.user)
+        if order.user:
+            system_calls.become(order.user)
         # A change of the user undoes it. Who ends process 1 ends this, without a sandbox too.
         system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
         system_calls.prctl(system_calls.PR_SET_DUMPABLE, 1)
-        loaded.limits.apply()
-        loaded.work(result)
+        order.limits.apply()
+        order.work(result)
         code = 0
     except SystemExit as error:
         code = error.code if isinstance(error.code, int) else 1
-    except BaseException as error:
-        print(f"{type(error).__name__}: {error}", file=sys.stderr)
     finally:
-        with suppress(BaseException):
-            sys.stdout.flush()
-            sys.stderr.flush()
         os._exit(code & 0xFF)
 
 

