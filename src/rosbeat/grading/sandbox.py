@@ -217,13 +217,13 @@ class _Inside:
             message, self.scratch, _, _ = socket.recv_fds(self.control, 100, len(SCRATCH), cloexec)
             if message != READY:
                 raise ConnectionError("a sandbox does not start")
+            self._first_state = self._state()
         except BaseException:
             self.close()
             raise
 
     def order(self, order: Order, writing: int) -> None:
         """Have a function run, and hand over the pipe that it writes to; it is closed here."""
-        self._first_state = self._state()
         try:
             with tempfile.TemporaryFile() as file:
                 pickle.dump(order, file)
@@ -278,8 +278,12 @@ class _Isolated(_Inside):
         arguments, descriptors = _arguments(view, proc, environment, self.user)
         words = [program, *arguments, "--", sys.executable, "-m", module]
         super().__init__(words, {}, descriptors)
-        (self.first,) = descendants(self.process.pid)
-        self._handle = system_calls.pidfd_open(self.first)
+        try:
+            (self.first,) = descendants(self.process.pid)
+            self._handle = system_calls.pidfd_open(self.first)
+        except (ValueError, OSError) as error:
+            super().close()
+            raise ConnectionError("a sandbox has ended") from error
 
     def memory(self) -> int:
         """Return the bytes of memory, of all files, and of what waits in sockets."""
