@@ -274,8 +274,10 @@ class _Isolated(_Inside):
     def __init__(self, view: View, module: str, environment: Mapping[str, str]) -> None:
         self._handle = -1
         program, proc = bubblewrap()
-        self.user = _user()
-        arguments, descriptors = _arguments(view, proc, environment, self.user)
+        user = _user()
+        if os.getuid() == 0:
+            self.user = user
+        arguments, descriptors = _arguments(view, proc, environment, user)
         words = [program, *arguments, "--", sys.executable, "-m", module]
         super().__init__(words, {}, descriptors)
         try:

@@ -21,6 +21,7 @@ import signal
 import socket
 import sys
 import tempfile
+import traceback
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -155,10 +156,15 @@ def serve(descriptor: int, isolated: bool, prepare: Callable[[], object]) -> Non
 
 def _forked(order: Order, result: int, folder: str, kill_all: Callable[[], None]) -> int:
     """Run an order, and end all that it leaves; return its exit code, or less a signal."""
+    told, tells = os.pipe()
     child = os.fork()
     if child == 0:
-        _be_work(order, result, folder)
+        _be_work(order, result, tells, folder)
     os.close(result)
+    os.close(tells)
+    with os.fdopen(told, "rb") as file:
+        if not file.read():
+            sys.exit("The process of a page could not become what it has to be.")
     process, status = 0, 0
     while process != child:  # whatever else loses its parent in there is this process's child, too
         process, status = os.waitpid(-1, _ALL)
@@ -198,17 +204,12 @@ def _kill_descendants() -> None:
 # The fork.
 
 
-def _be_work(order: Order, result: int, folder: str) -> NoReturn:
+def _be_work(order: Order, result: int, tells: int, folder: str) -> NoReturn:
     """Be the work, with nothing of what this process was; for good."""
     code = 1
     try:
         os.setsid()
         os.chdir(folder)
-        null = os.open(os.devnull, os.O_RDWR)
-        for descriptor in range(3):
-            os.dup2(null, descriptor)
-        result = os.dup2(result, 3, inheritable=False)
-        os.closerange(4, os.sysconf("SC_OPEN_MAX"))
         signal.signal(signal.SIGINT, signal.default_int_handler)
         os.environ.clear()
         os.environ.update(order.environment)
@@ -219,11 +220,20 @@ def _be_work(order: Order, result: int, folder: str) -> NoReturn:
         # A change of the user undoes it. Who ends process 1 ends this, without a sandbox too.
         system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
         system_calls.prctl(system_calls.PR_SET_DUMPABLE, 1)
+        null = os.open(os.devnull, os.O_RDWR)
         order.limits.apply()
-        order.work(result)
+        # From here on, whatever goes wrong is the work's own fault.
+        os.write(tells, b".")
+        for descriptor in range(3):
+            os.dup2(null, descriptor)
+        os.dup2(result, 3, inheritable=False)
+        os.closerange(4, os.sysconf("SC_OPEN_MAX"))
+        order.work(3)
         code = 0
     except SystemExit as error:
         code = error.code if isinstance(error.code, int) else 1
+    except BaseException:
+        traceback.print_exc()
     finally:
         os._exit(code & 0xFF)
 
