@@ -133,9 +133,10 @@ def serve(descriptor: int, isolated: bool, prepare: Callable[[], object]) -> Non
     system_calls.prctl(system_calls.PR_SET_DUMPABLE, 0)
     if not isolated:
         system_calls.prctl(system_calls.PR_SET_CHILD_SUBREAPER, 1)
+    first = {path: set(os.listdir(path)) for path in SCRATCH if isolated}
     prepare()
-    folders = [os.open(path, os.O_RDONLY | os.O_DIRECTORY) for path in SCRATCH if isolated]
-    first = [set(os.listdir(folder)) for folder in folders]
+    _empty(first)  # libraries of ROS leave something there
+    folders = [os.open(path, os.O_RDONLY | os.O_DIRECTORY) for path in first]
     with socket.socket(fileno=descriptor) as control:
         socket.send_fds(control, [READY], folders)
         while True:
@@ -146,8 +147,7 @@ def serve(descriptor: int, isolated: bool, prepare: Callable[[], object]) -> Non
                 order: Order = pickle.load(file)
             if isolated:
                 code = _forked(order, descriptors[1], "/tmp", _kill_all)
-                for path, names in zip(SCRATCH, first, strict=True):
-                    _empty(path, names)
+                _empty(first)
             else:
                 with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
                     code = _forked(order, descriptors[1], folder, _kill_descendants)
@@ -175,18 +175,19 @@ def _forked(order: Order, result: int, folder: str, kill_all: Callable[[], None]
     return os.waitstatus_to_exitcode(status)
 
 
-def _empty(folder: str, names: set[str]) -> None:
-    """Remove what a work has written; whoever started this looks whether that was all.
+def _empty(first: Mapping[str, set[str]]) -> None:
+    """Remove what was written to folders; whoever started this looks whether that was all.
 
     Args:
-        folder: The folder.
-        names: What was in it at first.
+        first: The folders, and what was in them at first.
     """
     with suppress(OSError, RecursionError):
-        for entry in list(os.scandir(folder)):
-            if entry.name not in names and entry.is_dir(follow_symlinks=False):
+        for entry in [entry for folder in first for entry in os.scandir(folder)]:
+            if entry.name in first[os.path.dirname(entry.path)]:
+                continue
+            if entry.is_dir(follow_symlinks=False):
                 shutil.rmtree(entry.path)
-            elif entry.name not in names:
+            else:
                 os.unlink(entry.path)
 
 
@@ -288,5 +289,4 @@ def main(words: Sequence[str]) -> None:
 
 
 if __name__ == "__main__":
-    # Orders name their functions by this module's own name: it is imported once, as that.
-    importlib.import_module("rosbeat.grading.worker").main(sys.argv[1:])
+    main(sys.argv[1:])
