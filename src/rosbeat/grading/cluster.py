@@ -1,9 +1,10 @@
 """Observe the answers of a class on a Dask cluster; judging stays on this computer.
 
-Each worker of the cluster keeps a pool, which creates the same sandboxes as on one machine. If a submission's worker is lost, Dask sends the submission to another one; a submission
-that loses several workers is given up. Client and worker exchange lines of JSON; a submission is
-never pickled, and all files are written on this computer. Only this module depends on Dask, and it
-is only imported when a cluster is requested; without Dask, importing it raises a `GradingError`.
+Each worker of the cluster keeps a pool, which creates the same sandboxes as on one machine. If a
+submission's worker is lost, Dask sends the submission to another one; a submission that loses
+several workers is given up. Client and worker exchange lines of JSON; a submission is never
+pickled, and all files are written on this computer. Only this module depends on Dask, and it is
+only imported when a cluster is requested; without Dask, importing it raises a `GradingError`.
 """
 
 from __future__ import annotations

@@ -550,8 +550,8 @@ _IN_A_CONTAINER = (
     "This looks like a container, and Docker, Podman and Gradescope refuse namespaces there, even "
     "to root. Grade outside of it, or start a container that holds only the submissions with "
     "`docker run --privileged`. Where you can do neither, `--unsafe-no-sandbox` runs pages with "
-    "limits only: they can then read what you can read there, the secret seed of the class and "
-    "other submissions too, use the network, and change files."
+    "limits only: they can then read what you can read there (or, if you are root, what everybody "
+    "can read), the secret seed of the class and other submissions too, and use the network."
 )
 
 
