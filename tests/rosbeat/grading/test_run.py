@@ -341,7 +341,7 @@ def test_a_sandbox_that_cannot_start_or_be_made_is_no_fault_of_an_answer(fakes, 
     with Pool(1) as pool, pytest.raises(GradingError) as caught:
         done(pool, "job", "refuse", "job2")
     says(caught.value, "No sandbox.", "Nothing was run.", "Try this.")
-    assert fakes[0].words == ["job", "refuse"]
+    assert fakes[0].words[:2] == ["job", "refuse"]
     with Pool(1) as pool:
         fakes[1].never_starts = True
         with pytest.raises(GradingError) as caught:
