@@ -89,7 +89,7 @@ def environment() -> dict[str, str]:
     """
     names = (*_KEPT, "PYTHONPATH", "PYTHONHOME")
     kept = {name: os.environ[name] for name in names if name in os.environ}
-    return {**kept, "PATH": "/usr/bin:/bin", "LD_BIND_NOW": "1"}
+    return {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp", "LD_BIND_NOW": "1"}
 
 
 def view_of_answers() -> View:
@@ -132,7 +132,7 @@ def _compile() -> None:
     if not all(os.path.exists(importlib.util.cache_from_source(one)) for one in sources):
         program = f"import rosbeat.viz.diagrams, {_MODULE} as worker; worker.prepare()"
         words = [sys.executable, "-c", program]
-        subprocess.run(words, env=environment(), cwd="/", capture_output=True, check=False)
+        subprocess.run(words, cwd="/", capture_output=True, check=False)
 
 
 class Worker:

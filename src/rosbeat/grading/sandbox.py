@@ -307,7 +307,8 @@ class _Unsafe(_Inside):
     def __init__(self, view: View, module: str, environment: Mapping[str, str]) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="rosbeat-", ignore_cleanup_errors=True)
         words = [sys.executable, "-m", module, UNSAFE]
-        super().__init__(words, {**environment, "TMPDIR": self._folder.name})
+        own = dict.fromkeys(("HOME", "TMPDIR"), self._folder.name)
+        super().__init__(words, {**environment, **own})
 
     def close(self) -> None:
         """End it, and all processes of it that can be found."""
@@ -469,7 +470,7 @@ _NAMESPACES = ("ipc", "pid", "net", "uts", "cgroup-try")
 #: users who come and go, so that no two sandboxes have the same one.
 _INSIDE, _PASSING, _MANY = 1000, 61_184, 4_000
 _SYSTEM = ("/usr", "/lib", "/lib32", "/lib64", "/bin", "/sbin")
-_ETC = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "localtime", "alternatives")
+_ETC = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "localtime", "alternatives", "fonts")
 #: Names of users and hosts come from files, of which there are none: nobody else is asked.
 _NAMES = "passwd: files\ngroup: files\nhosts: files\n"
 #: The mounts of processes; the second where the kernel refuses the first, as in some containers.

@@ -250,7 +250,8 @@ _PREPARED = (
     *("IPython.core.interactiveshell", "rosbeat.exercises.registry", "rosbeat.exercises.check"),
     *("rosbeat.workspace.terminals", "rosbeat.workspace.magics", "rosbeat.workspace.saving_magic"),
     *("IPython.core.magics", "pygments.lexers.python", "rosbeat.exercises.quiz"),
-    "rosbeat.exercises.predict",
+    *("rosbeat.exercises.predict", "rosbeat.viz.diagrams", "matplotlib.backends.backend_svg"),
+    *("mpl_toolkits.mplot3d", "dateutil.parser"),
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (
