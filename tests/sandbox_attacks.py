@@ -1,6 +1,6 @@
 """What strangers' code may try, each in a sandbox; run as a program, it tells how each ended.
 
-It is a process of its own because a sandbox is forked, and a test process has threads.
+It is also what runs inside of the sandbox, where each deed is done in a fork.
 """
 
 import ctypes
@@ -22,16 +22,19 @@ from dataclasses import replace
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.sandbox import Limits, Sandbox, View, become_able, python_folders
+from rosbeat.grading.sandbox import Sandbox, View, bubblewrap, python_folders
 from rosbeat.grading.system_calls import REFUSED, number_of
+from rosbeat.grading.worker import UNSAFE, Limits, descendants, serve
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
 SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (0.7, 15.0))
 #: So many processes are enough to see that there are no more; more make the machine busy.
 FEW = replace(SHORT, processes=24)
 #: A folder that is shown, and one of which only one file is.
-SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {os.getpid()}") for one in "ab")
-SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
+RUN = os.environ.get("ROSBEAT_ATTACKS", str(os.getpid()))
+SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {RUN}") for one in "ab")
+SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{RUN}")
+HERE = Path(__file__).parent
 
 
 def attempt(deed):
@@ -490,6 +493,69 @@ def looks_around(result):
     })  # fmt: skip
 
 
+def counts_forks(result):
+    """Have as many processes as there can be."""
+    number = 0
+    with suppress(BlockingIOError):
+        while number < 1000:
+            if os.fork() == 0:
+                time.sleep(1000)
+            number += 1
+    tells(result, {"processes": number})
+
+
+def fills_with_small_files(result):
+    for folder in range(10_000):
+        os.mkdir(f"/tmp/{folder}")
+        for name in range(100):
+            open(f"/tmp/{folder}/{name}", "x").close()
+
+
+def digs_deep(result):
+    """Leave folders in folders that nobody removes by their path."""
+    for _ in range(3_000):
+        os.mkdir("deeper")
+        os.chdir("deeper")
+
+
+def changes_the_folders(result):
+    """Leave something on the folders themselves; root's they cannot change."""
+    tells(result, {
+        "mode": attempt(lambda: os.chmod("/tmp", 0o700)),
+        "attribute": attempt(lambda: os.setxattr("/dev/shm", "user.left", b"left")),
+        "moved": attempt(lambda: os.rename(SHOWN, "/tmp/elsewhere")),
+        "folder": attempt(lambda: os.mkdir("/tmp/locked", 0)),
+    })  # fmt: skip
+
+
+def finds_folders(result):
+    tells(result, {
+        "modes": [oct(os.stat(path).st_mode) for path in ("/tmp", "/dev/shm")],
+        "attributes": [os.listxattr(path) for path in ("/tmp", "/dev/shm")],
+        "there": sorted(os.listdir("/tmp")),
+    })  # fmt: skip
+
+
+def waits(result):
+    """Tell that it has begun, and do nothing more."""
+    os.write(result, b"begun")
+    time.sleep(1000)
+
+
+def looks_at_its_place(result):
+    tells(result, {"here": os.getcwd(), "environment": dict(os.environ)})
+
+
+def leaves_a_process(result):
+    told, tells_ = os.pipe()
+    if os.fork() == 0:
+        os.setsid()
+        tells(result, {"left": os.getpid()})
+        os.write(tells_, b".")
+        time.sleep(600)
+    os.read(told, 1)
+
+
 def ignores_signals(result):
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
@@ -509,16 +575,14 @@ DEEDS = (
     *(keeps_a_few_sockets_in_many_processes, asks_for_larger_buffers, fills_tables_of_pages),
     *(maps_in_many_pieces, keeps_pages_in_pipes, makes_namespaces, mounts_in_new_ways),
     *(reaches_init, opens_by_handle, holds_a_lease, stops_itself, adopts_daemons),
-    *(waits_for_a_child_that_borrows_its_memory, hides_and_eats),
+    *(waits_for_a_child_that_borrows_its_memory, hides_and_eats, counts_forks),
+    *(fills_with_small_files, digs_deep, changes_the_folders, finds_folders),
 )
 
 
 def ending(found):
     told = json.loads(found.result) if found.result[:1] == b"{" else len(found.result)
-    return {
-        "how": found.how, "number": found.number, "told": told, "seconds": found.seconds,
-        "output": found.output[-200:].decode("utf-8", "replace"), "read": len(found.output),
-    }  # fmt: skip
+    return {"how": found.how, "number": found.number, "told": told, "seconds": found.seconds}
 
 
 #: Deeds that end at the deadline.
@@ -529,51 +593,50 @@ ENDLESS = (
 
 
 def _limits(deed):
-    return FEW if deed is forks else SHORT if deed in ENDLESS else LONG
+    if deed in (forks, counts_forks):
+        return FEW if deed is forks else replace(LONG, processes=24)
+    return SHORT if deed in ENDLESS else LONG
 
 
-def kept(view):
-    """Run every deed in one sandbox, whose keeper is a process of its own."""
-    reading, writing = os.pipe()
-    keeper = os.fork()
-    if keeper:
-        os.close(writing)
-        with os.fdopen(reading) as file:
-            told = json.load(file)
-        os.waitpid(keeper, 0)
-        return told
-    try:
-        with Sandbox(view) as sandbox:
-            told = {deed.__name__: ending(sandbox.run(deed, _limits(deed))) for deed in DEEDS}
-    except GradingError as error:
-        told = {"refused": str(error)}
-    with os.fdopen(writing, "w") as file:
-        json.dump(told, file)
-    os._exit(0)
+def sandbox_of(view, isolated=True):
+    """Return a sandbox in which deeds of this module are done."""
+    given = {"PYTHONPATH": str(HERE), "ROSBEAT_ATTACKS": RUN}
+    return Sandbox(view, "sandbox_attacks", isolated, given)
+
+
+def done(view):
+    """Do every deed, and tell how each ended."""
+    with sandbox_of(view) as sandbox:
+        return {deed.__name__: ending(sandbox.run(deed, _limits(deed))) for deed in DEEDS}
 
 
 def main():
-    """Run every deed and print how it ended, as JSON."""
-    with suppress(OSError):
-        become_able()  # the program begins again with this
+    """Do every deed and print how it ended, as JSON."""
+    import sandbox_attacks as deeds  # by this name it is known inside
+
+    bubblewrap()
     SECRET.write_text("secret")
     for folder in (SHOWN, HIDDEN):
         folder.mkdir()
         for name in ("one", "two"):
             (folder / name).write_text(name)
-    readable = (*python_folders(), str(SHOWN), str(HIDDEN / "two"))
-    view = View(readable, (), {"PATH": "/usr/bin", "HOME": "/tmp"})
-    seen = {}
+    readable = (*python_folders(), str(HERE), str(SHOWN), str(HIDDEN / "two"))
+    view = View(readable, environment={"PATH": "/usr/bin", "HOME": "/tmp"})
     try:
-        seen = kept(view)
+        seen = deeds.done(view)
     finally:
         SECRET.unlink()
         for folder in (SHOWN, HIDDEN):
             shutil.rmtree(folder)
-    mine = Path("/proc/self/task", str(os.getpid()), "children").read_text().split()
-    shared = [one for one in os.listdir("/dev/shm") if one == "mine"]
-    print(json.dumps({"seen": seen, "left": [*mine, *shared]}))
+    shared = [name for name in os.listdir("/dev/shm") if name == "mine"]
+    print(json.dumps({"seen": seen, "left": [*descendants(os.getpid()), *shared]}))
 
 
 if __name__ == "__main__":
-    main()
+    if len(sys.argv) > 1:
+        serve(int(sys.argv[-1]), UNSAFE not in sys.argv, lambda: None)
+    else:
+        try:
+            main()
+        except GradingError as error:
+            print(json.dumps({"seen": {"refused": str(error)}}))

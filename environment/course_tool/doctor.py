@@ -7,7 +7,6 @@ import platform
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,6 +22,15 @@ _LAB = "./environment/course lab"
 _REPAIR = f"remove the folder .venv; {_LAB}  makes it"
 _ENOUGH_SHARED_MEMORY = 64 * 10**6
 _COMMANDS = {"ros2": "pkg prefix rclpy", "colcon": "version-check --help", "rosbeat": "--help"}
+#: Prints the path of a bubblewrap that works; else what is wrong, and what to do about it.
+_SANDBOX = """
+from rosbeat.errors import GradingError
+from rosbeat.grading.sandbox import bubblewrap
+try:
+    print(bubblewrap()[0])
+except GradingError as error:
+    raise SystemExit(f"{error.what}\\n{error.to_try}")
+"""
 _PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 
 
@@ -63,7 +71,6 @@ def look(layout: Layout, clean: running.Environment) -> list[Finding]:
         disk(shutil.disk_usage(layout.root).free, layout.stamp.exists()),
         shared_memory(Path("/dev/shm")),
         another_ros(clean),
-        sandbox(),
         *wsl(platform.release(), layout.root),
         made,
     ]
@@ -71,6 +78,7 @@ def look(layout: Layout, clean: running.Environment) -> list[Finding]:
         environ = running.inside(clean.environ, layout)
         findings += ros(layout, clean, environ)
         findings += [command(layout, name, environ) for name in _COMMANDS]
+        findings.append(sandbox(layout, environ))
     return [*findings, pages(layout), workspace(layout, clean.environ)]
 
 
@@ -163,16 +171,6 @@ def another_ros(clean: running.Environment) -> Finding:
     )
 
 
-def sandbox() -> Finding:
-    """Say whether sandboxes, which only `rosbeat grade` needs, can be made: in a process."""
-    program = "import ctypes, sys; sys.exit(ctypes.CDLL(None).unshare(0x10020000) != 0)"
-    done = subprocess.run([sys.executable, "-I", "-c", program], capture_output=True, check=False)
-    if done.returncode == 0:
-        return Finding("ok", "sandbox", "can be made, for grading")
-    text = "cannot be made here; only rosbeat grade needs it, and says what to do"
-    return Finding("note", "sandbox", text)
-
-
 def wsl(release: str, root: Path) -> list[Finding]:
     """Say what matters in the Linux of Windows (WSL); nothing on any other machine.
 
@@ -219,6 +217,16 @@ def command(layout: Layout, name: str, environ: Mapping[str, str]) -> Finding:
     if answer.ok:
         return Finding("ok", name, "starts")
     return Finding("problem", name, f"does not start ({answer.last_line})", _REPAIR)
+
+
+def sandbox(layout: Layout, environ: Mapping[str, str]) -> Finding:
+    """Say which bubblewrap makes sandboxes, which only `rosbeat grade` needs, or why none does."""
+    answer = running.quiet([layout.venv / "bin" / "python", "-c", _SANDBOX], environ, timeout=60)
+    lines = answer.text.strip().splitlines() or ["nothing is said"]
+    if answer.ok:
+        version = running.quiet([lines[-1], "--version"], environ, timeout=60).last_line
+        return Finding("ok", "sandbox", f"works, for grading: {version}, {lines[-1]}")
+    return Finding("note", "sandbox", f"only rosbeat grade needs it: {lines[0]}", lines[-1])
 
 
 # ROS, as a plain Python of `.venv` sees it.

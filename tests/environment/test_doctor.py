@@ -205,3 +205,16 @@ def test_where_the_workspace_lies(layout, tmp_path):
     assert found.text == f"{tmp_path}/{location.NAME}, by ROSBEAT_WORKSPACE_IN"
     found = doctor.workspace(layout, {location.SETTING: str(tmp_path / "not there")})
     assert found.state == "problem"
+
+
+def test_which_sandbox_works_or_why_none_does(made):
+    bwrap = made.venv / "bin" / "bwrap"
+    program(bwrap, "echo bubblewrap 0.8.0")
+    program(made.venv / "bin" / "python", f"echo {bwrap}")
+    works = doctor.sandbox(made, CLEAN.environ)
+    assert works.state == "ok"
+    assert f"bubblewrap 0.8.0, {bwrap}" in works.text
+    program(made.venv / "bin" / "python", "printf 'It is not installed.\\nInstall it.\\n'; exit 1")
+    none = doctor.sandbox(made, CLEAN.environ)
+    assert (none.state, none.cure) == ("note", "Install it.")
+    assert "It is not installed." in none.text

@@ -27,8 +27,11 @@ DEEDS = (
     Deed("SIGKILL of itself", before("import os\nos.kill(os.getpid(), 9)"), words="SIGKILL"),
     Deed(
         "kill of the parent",
-        before("import os\nos.kill(os.getppid(), 9)\nos._exit(3)"),
-        words="SIGKILL",
+        before(
+            "import os\ntry:\n    os.kill(os.getppid(), 9)\nexcept PermissionError:\n    pass\n"
+            "os._exit(3)"
+        ),
+        words="exit code 3",
     ),
     Deed(
         "kill of everybody",

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from hostile.brief import be_brief
 from hostile.deed import CANARY, TRACE
 from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large
 from hostile.pages import ROOT
@@ -35,8 +36,7 @@ def surroundings(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROSBEAT_TEST_SECRET", CANARY)
         patch.setenv("HOME", str(home))
-        patch.setenv("PYTHONPATH", str(Path(__file__).parents[1]), prepend=os.pathsep)
-        patch.setattr("rosbeat.grading.pool._MODULE", "hostile.brief_worker")
+        be_brief(patch)
         yield home
 
 

@@ -96,21 +96,17 @@ def keys(out):
 # Killed.
 
 
-def workers_of(parent):
-    return [one for one in parent.children() if "rosbeat.grading.worker" in one.cmdline()]
+def sandboxes_of(parent):
+    return [child for child in parent.children() if "rosbeat.grading.worker" in child.cmdline()]
 
 
-def keepers_of(parent):
-    return [keeper for worker in workers_of(parent) for keeper in worker.children()]
+def firsts_of(parent):
+    """Process 1 of each sandbox."""
+    return [first for sandbox in sandboxes_of(parent) for first in sandbox.children()]
 
 
-def inits_of(parent):
-    """The first child of a keeper is process 1 of its sandbox, the other one the answer."""
-    return [keeper.children()[0] for keeper in keepers_of(parent)]
-
-
-def answers_of(parent):
-    return [one for keeper in keepers_of(parent) for one in keeper.children()[1:]]
+def pages_of(parent):
+    return [page for first in firsts_of(parent) for page in first.children()]
 
 
 def all_of(parent):
@@ -119,10 +115,9 @@ def all_of(parent):
 
 #: What is killed, and which processes of a grading run those are; of `all`, each is killed.
 KINDS = {
-    "worker": workers_of,
-    "keeper": keepers_of,
-    "init": inits_of,
-    "answer": answers_of,
+    "sandbox": sandboxes_of,
+    "process 1": firsts_of,
+    "page": pages_of,
     "all": all_of,
     "parent": lambda parent: [parent],
 }
@@ -146,7 +141,7 @@ def kill(process, kind, random):
 def killed_in_turn(graded, out, kinds, random):
     """Grade, and kill one after the other, a few answers apart; begin again if it has ended.
 
-    It ends with its parent, and if a worker is lost before it has observed anything.
+    It ends with its parent, and if a sandbox is lost before anything was observed in it.
     """
     process, done = graded.start(out), []
     try:

@@ -1,10 +1,10 @@
 """Observe the answers of a class on a Dask cluster; judging stays on this computer.
 
-Each worker of the cluster keeps prepared processes, which create the same sandbox as on one
-machine. If a submission's worker is lost, Dask sends the submission to another one; a submission
-that loses several workers is given up. Client and worker exchange lines of JSON; a submission is
-never pickled, and all files are written on this computer. Only this module depends on Dask, and it
-is only imported when a cluster is requested; without Dask, importing it raises a `GradingError`.
+Each worker of the cluster keeps a pool, which creates the same sandboxes as on one machine. If a
+submission's worker is lost, Dask sends the submission to another one; a submission that loses
+several workers is given up. Client and worker exchange lines of JSON; a submission is never
+pickled, and all files are written on this computer. Only this module depends on Dask, and it is
+only imported when a cluster is requested; without Dask, importing it raises a `GradingError`.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _AHEAD = 2
 
 
 class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]  # Dask has no types
-    """Keep prepared processes on one worker of Dask, one for each of its threads.
+    """Keep a pool on one worker of Dask, with a sandbox for each of its threads.
 
     Dask sets it up on every worker, on those too that join or are restarted later.
     """
@@ -56,12 +56,12 @@ class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]  # Dask has n
         self._pool: Pool | None = None
 
     def setup(self, worker: distributed.Worker) -> None:
-        """Start the processes."""
+        """Make the pool."""
         self._version = course_version()
         self._pool = Pool(worker.state.nthreads)
 
     def teardown(self, worker: distributed.Worker) -> None:
-        """End the processes."""
+        """End its sandboxes."""
         if self._pool is not None:
             self._pool.close()
 

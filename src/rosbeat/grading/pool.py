@@ -1,22 +1,19 @@
-"""Keep the worker processes that observe answers: their start, their jobs, and their replacement.
+"""Have the submissions of a class observed, several at a time, each in a sandbox of its own.
 
-A worker that dies or does not answer in time is replaced, and its current answer is tried once more
-in the new one; an answer that loses two workers is given up. The others continue.
+If a sandbox is ended by somebody else, its current page is tried once more in a new one; a page
+that loses two of them is given up. The others continue.
 """
 
 from __future__ import annotations
 
-import json
+import importlib.util
 import os
-import select
 import subprocess
 import sys
 import tempfile
 import threading
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -24,17 +21,31 @@ from queue import SimpleQueue
 from types import MappingProxyType
 from typing import TypeVar
 
+from rosbeat.environment import PROFILE_VARIABLES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import from_json
-from rosbeat.grading.jobs import Evidence, PageCell, PageEvidence, PageJob, lost, read_line, to_line
-from rosbeat.grading.worker import UNSAFE, environment
+from rosbeat.grading.jobs import Evidence, PageCell, PageEvidence, PageJob, lost
+from rosbeat.grading.sandbox import Sandbox, View, python_folders
+from rosbeat.grading.transcript import observe_page
+from rosbeat.grading.worker import Limits
 from rosbeat.records import Observation
 from rosbeat.workspace.prerequisites import catch_up
 
 Key = TypeVar("Key")
+#: What runs inside of a sandbox, and the modules of this folder that it consists of.
 _MODULE = "rosbeat.grading.worker"
-#: Seconds that a worker may be silent: the longest job, and a machine that is busy.
-PATIENCE = 400.0
+_MODULES = ("__init__", "jobs", "page_process", "system_calls", "tampering", "worker")
+#: Variables that name a file of settings.
+_FILES = (*PROFILE_VARIABLES, "COLCON_DEFAULTS_FILE")
+#: Variables of the environment that ROS needs; nothing else of it reaches a sandbox.
+_KEPT = (
+    *("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_PYTHON_CHECK_FIELDS", "LANG", "LC_ALL", "TZ"),
+    *(*_FILES, "RMW_FASTRTPS_USE_QOS_FROM_XML"),
+)
+#: Folders of this package that hold solutions, or are nobody's business in there.
+_HIDDEN = ("exercises/solved", "grading", "authoring", "workspace/finished", "course/solutions")
+#: Seconds that one run of a page may take by the clock on the wall, and bytes of its evidence.
+WALL, RESULT = 240.0, 60_000_000
 _TRIES = 2
 #: A program that certainly works, and has all that most answers need: a node, both ends of a topic,
 #: a timer, a log. No learner pays for a sandbox in which nothing can be observed.
@@ -70,109 +81,116 @@ check("03a", Rehearsal)
 )
 
 
+def environment() -> dict[str, str]:
+    """Return what process 1 of a sandbox starts with: what Python and ROS need, and nothing else.
+
+    The middleware's thousands of functions are looked up once, as it is loaded (ld.so(8)); else
+    each answer would do so anew, for itself. Answers see nothing of this: see `View.environment`.
+    """
+    names = (*_KEPT, "PYTHONPATH", "PYTHONHOME")
+    kept = {name: os.environ[name] for name in names if name in os.environ}
+    return {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp", "LD_BIND_NOW": "1"}
+
+
+def view_of_answers() -> View:
+    """Return what answers see: Python, ROS and a part of this package; an empty environment."""
+    kept = {name: os.environ[name] for name in _KEPT if name in os.environ}
+    package = Path(__file__).resolve().parents[1]
+    sources = [str(package / "grading" / f"{name}.py") for name in _MODULES]
+    return View(
+        [*python_folders(), *_commands(), *(kept[name] for name in _FILES if name in kept)],
+        [str(package / name) for name in _HIDDEN],
+        [*sources, *map(importlib.util.cache_from_source, sources)],
+        {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"},
+    )
+
+
+def _commands() -> list[str]:
+    """Return the folder of the `ros2` command, where it is the course's own."""
+    spec = importlib.util.find_spec("ros2_command")
+    folders = spec.submodule_search_locations if spec else None
+    return [str(Path(folder).resolve().parent) for folder in folders or ()]
+
+
+def limits_of(job: PageJob, seconds: float = WALL) -> Limits:
+    """Return what a run of a page may use; builds and programs in terminals need more processes.
+
+    Args:
+        job: The page.
+        seconds: How long it may take, by the clock on the wall.
+    """
+    processes, wall = 512 if job.needs_files else 128, min(WALL, seconds)
+    return Limits(wall=wall, cpu=int(wall) + 1, processes=processes, result=RESULT)
+
+
+@cache
+def _compile() -> None:
+    """Have Python compile once what sandboxes import: in there it could keep nothing of that."""
+    names = ("rclpy", "numpy", "IPython", "matplotlib", _MODULE)
+    specs = [importlib.util.find_spec(name) for name in names]
+    sources = [spec.origin for spec in specs if spec and spec.origin]
+    if not all(os.path.exists(importlib.util.cache_from_source(one)) for one in sources):
+        program = f"import rosbeat.viz.diagrams, {_MODULE} as worker; worker.prepare()"
+        words = [sys.executable, "-c", program]
+        subprocess.run(words, cwd="/", capture_output=True, check=False)
+
+
 class Worker:
-    """Start a prepared process, and have it observe submissions.
+    """Observe submissions one after the other, each in a sandbox of its own.
 
     Args:
         unsafe: Whether it runs answers with limits only.
-        patience: Seconds that it may be silent.
     """
 
-    def __init__(self, unsafe: bool = False, patience: float = PATIENCE) -> None:
-        options = [UNSAFE] if unsafe else []
-        self._patience = patience
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", _MODULE, *options],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=environment(),
-            cwd="/",  # Python imports from there, and here there may be anything
-            start_new_session=True,
-        )
+    def __init__(self, unsafe: bool = False) -> None:
+        self._sandbox = Sandbox(view_of_answers(), _MODULE, not unsafe, environment())
         self._is_rehearsed = False
 
     @property
     def pid(self) -> int:
-        """Return the number of its process."""
-        return self._process.pid
+        """Return the number of the outermost process of its sandbox; 0 while there is none."""
+        return self._sandbox.pid
 
     def observe(self, jobs: Sequence[PageJob]) -> Iterator[PageEvidence]:
         """Have the jobs of a submission done.
 
         Yields:
-            Evidence for one after the other; less if the worker is lost, or says what cannot be
-            understood.
+            Evidence for one after the other; less if the sandbox is lost.
 
         Raises:
-            GradingError: If the worker cannot start, or cannot make a sandbox, or the workspace of
-                a page cannot be made.
+            GradingError: If a sandbox cannot be made, or nothing can be observed in it, or the
+                workspace of a page cannot be made.
         """
-        if not self._is_rehearsed:
-            _require_rehearsed(next(self._exchange([REHEARSAL]), None))
-            self._is_rehearsed = True
-        yield from self._exchange([with_files(job) for job in jobs])
+        _compile()
+        with self._sandbox:
+            if not self._is_rehearsed:
+                _require_rehearsed(self._observed(REHEARSAL))
+                self._is_rehearsed = True
+            for job in jobs:
+                evidence = self._observed(with_files(job))
+                if evidence is None:
+                    return
+                yield evidence
 
-    def _exchange(self, jobs: Sequence[PageJob]) -> Iterator[PageEvidence]:
-        assert self._process.stdin is not None
+    def _observed(self, job: PageJob) -> PageEvidence | None:
+        """Return the evidence of a page; none if the sandbox is lost."""
         try:
-            line = json.dumps([to_line(job) for job in jobs])
-            self._process.stdin.write(f"{line}\n".encode())
-            self._process.stdin.flush()
+            return observe_page(
+                job, lambda work, seconds: self._sandbox.run(work, limits_of(job, seconds))
+            )
         except OSError:
-            return
-        for _ in jobs:
-            evidence = _understood(self._line())
-            if evidence is None:
-                return
-            yield evidence
-
-    def _line(self) -> str:
-        """Return the next line; empty if the worker has ended or is silent for too long."""
-        assert self._process.stdout is not None
-        descriptor, found = self._process.stdout.fileno(), self._rest
-        deadline = time.monotonic() + self._patience
-        while b"\n" not in found:
-            left = deadline - time.monotonic()
-            if left <= 0 or not select.select([descriptor], [], [], left)[0]:
-                return ""
-            data = os.read(descriptor, 1 << 20)
-            if not data:
-                return ""
-            found += data
-        line, _, self._rest = found.partition(b"\n")
-        return line.decode("utf-8", "replace")
-
-    #: What was read beyond the last line.
-    _rest = b""
+            return None
 
     def kill(self) -> None:
-        """End it and everything that it has started; whoever waits for its answer gets none."""
-        self._process.kill()
-
-    def close(self) -> None:
-        """End it, and forget it."""
-        self.kill()
-        for pipe in (self._process.stdin, self._process.stdout):
-            with suppress(OSError):
-                assert pipe is not None
-                pipe.close()
-        self._process.wait()
-
-
-def _understood(line: str) -> PageEvidence | None:
-    if line.startswith('{"refused"'):
-        raise GradingError(*json.loads(line)["refused"])
-    try:
-        return read_line(PageEvidence, line)
-    except GradingError:
-        return None
+        """End everything that it has started, for good; whoever waits for evidence gets none."""
+        self._sandbox.kill()
 
 
 def _require_rehearsed(evidence: PageEvidence | None) -> None:
     """Refuse to go on with a worker in which not even the course's own program can be observed."""
     if evidence is None:  # it has lost no answer: the next one would not start either
         raise GradingError(
-            "A process that watches answers does not start.",
+            "The process that runs pages in a sandbox does not start.",
             "What it printed, above, says why; nothing was judged, and no mark is lost.",
             "`course doctor` says what this computer lacks. Then run the command again.",
         )
@@ -203,20 +221,16 @@ class Pool:
     Args:
         size: How many; by default one for each processor.
         unsafe: Whether they run answers with limits only.
-        patience: Seconds that one may be silent.
     """
 
-    def __init__(
-        self, size: int | None = None, unsafe: bool = False, patience: float = PATIENCE
-    ) -> None:
+    def __init__(self, size: int | None = None, unsafe: bool = False) -> None:
         self.size = size or os.cpu_count() or 1
-        self._unsafe, self._patience = unsafe, patience
-        self._lock, self._is_closed = threading.Lock(), False
+        self._is_closed = False
         self._threads = ThreadPoolExecutor(self.size)
+        self._all = [Worker(unsafe) for _ in range(self.size)]
         self._idle: SimpleQueue[Worker] = SimpleQueue()
-        self._all: set[Worker] = set()
-        for _ in range(self.size):
-            self._idle.put(self._new_worker())
+        for worker in self._all:
+            self._idle.put(worker)
 
     def __enter__(self) -> Pool:
         return self
@@ -226,9 +240,8 @@ class Pool:
 
     @property
     def pids(self) -> frozenset[int]:
-        """Return the numbers of the workers' processes."""
-        with self._lock:
-            return frozenset(worker.pid for worker in self._all)
+        """Return the numbers of the outermost processes of all sandboxes that are there."""
+        return frozenset(worker.pid for worker in self._all if worker.pid)
 
     def observe(
         self, submissions: Iterable[Sequence[tuple[Key, PageJob]]]
@@ -255,45 +268,27 @@ class Pool:
     def _serve(
         self, left: list[tuple[Key, PageJob]], tell: Callable[[tuple[Key, PageEvidence]], None]
     ) -> None:
-        """Observe a submission with an idle worker, or with those that come after it."""
+        """Observe a submission with an idle worker, in as many sandboxes as that takes."""
         worker, tries = self._idle.get(), 0
         try:
             while left and not self._is_closed:
                 for evidence in worker.observe([job for _, job in left]):
                     tell((left.pop(0)[0], evidence))
                     tries = 0
-                if left:
-                    worker, tries = self._replaced(worker), tries + 1
-                if left and tries == _TRIES:
+                tries += 1
+                if left and tries == _TRIES and not self._is_closed:
                     key, job = left.pop(0)
                     tell((key, lost(job)))
                     tries = 0
         finally:
             self._idle.put(worker)
 
-    def _new_worker(self) -> Worker:
-        worker = Worker(self._unsafe, self._patience)
-        self._all.add(worker)
-        return worker
-
-    def _replaced(self, worker: Worker) -> Worker:
-        """Return a new worker; the old one, of no use, if there is to be none any more."""
-        with self._lock:
-            if self._is_closed:
-                return worker
-            self._all.discard(worker)
-            worker.close()
-            return self._new_worker()
-
     def close(self) -> None:
-        """End all workers; answers that are being observed are given up."""
-        with self._lock:
-            self._is_closed = True
+        """End all sandboxes; answers that are being observed are given up."""
+        self._is_closed = True
         for worker in self._all:
             worker.kill()
         self._threads.shutdown(cancel_futures=True)
-        for worker in self._all:
-            worker.close()
 
 
 # The workspace that a page of terminals starts from.

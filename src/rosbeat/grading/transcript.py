@@ -114,8 +114,7 @@ def _ended(ending: Ending, transcript: Transcript) -> Evidence:
         how = "deadline"
     elif transcript.is_forged:
         how = FORGED
-    output = ending.output[:_MOST].decode("utf-8", "replace")
-    return Evidence(how, ending.number, output=output)
+    return Evidence(how, ending.number)
 
 
 def read_transcript(result: bytes, seal: str) -> Transcript:

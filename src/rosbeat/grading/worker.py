@@ -1,47 +1,246 @@
-"""Prepare a process once, and fork it for each submission: `python -m rosbeat.grading.worker`.
+"""Run inside a sandbox: import once what pages need, then fork for each run of a page.
 
-::
+`python -m rosbeat.grading.worker DESCRIPTOR` is process 1 of a sandbox, whose outside is `sandbox`.
+Over the socket that it inherits it gets orders, each as a file, and the pipe for the result. It
+answers with how the fork ended.
 
-    worker           has imported everything that pages need; never reads a submission
-      └─ keeper      a fork for one submission: reads its jobs, creates its sandbox (see `sandbox`)
-           └─ work   a fork for one page, which forks once more for each check
-
-Each line on standard input is a submission: a list of lines of JSON, one per job. For each job the
-worker writes a line to standard output. ROS itself is only started in the work, and a check starts
-it anew in its own fork: a context of the process above would not work there. Since the worker never
-reads a submission, the next learner's program finds no trace of it in its own memory. The worker's
-environment contains only what ROS needs.
+Process 1 never runs anything of a learner, hears no signal from inside, and lets nobody look into
+it. ROS itself is only started in forks: a context of this process would not work there.
 """
 
 from __future__ import annotations
 
 import gc
 import importlib
-import importlib.util
 import inspect
-import json
 import os
-import select
+import pickle
+import resource
+import shutil
 import signal
+import socket
 import sys
-from collections.abc import Sequence
+import tempfile
+import traceback
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
 
-from rosbeat.environment import PROFILE_VARIABLES
-from rosbeat.errors import GradingError
 from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import PageEvidence, PageJob, read_line, to_line
-from rosbeat.grading.sandbox import (
-    Limits,
-    Sandbox,
-    View,
-    become_able,
-    python_folders,
-)
 
+MB = 1_000_000
 #: What makes a worker run answers without a sandbox.
 UNSAFE = "--unsafe-no-sandbox"
+#: What the two ends of the socket say when they are ready, with descriptors beside it.
+READY = b"ready"
+#: Where everything that is written is thrown away.
+SCRATCH = ("/tmp", "/dev/shm")
+#: What is run; it gets the descriptor to which it writes its result.
+Work = Callable[[int], None]
+#: What root may still do as process 1: end works, become their user, remove their files.
+RIGHTS = ("CAP_DAC_OVERRIDE", "CAP_KILL", "CAP_SETGID", "CAP_SETUID", "CAP_SETPCAP")
+#: `__WALL` of wait(2): also children that say nothing when they end.
+_ALL = 0x40000000
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Say how much one run may use.
+
+    Attributes:
+        wall: Seconds by the clock on the wall.
+        cpu: Seconds of processor time of each process.
+        memory: Bytes of memory of all processes and of all files in `/tmp` and `/dev/shm` together.
+        address_space: Bytes of address space of each process; libraries take hundreds of MB.
+        processes: Processes and threads.
+        file: Bytes of one file.
+        result: Bytes that are read of its result.
+    """
+
+    wall: float = 30.0
+    cpu: int = 30
+    memory: int = 1_000 * MB
+    address_space: int = 4_000 * MB
+    processes: int = 128
+    file: int = 50 * MB
+    result: int = 40 * MB
+
+    def apply(self) -> None:
+        """Limit this process and those that it starts; it cannot be undone."""
+        for what, most in (
+            (resource.RLIMIT_CPU, self.cpu),
+            (resource.RLIMIT_AS, self.address_space),
+            (resource.RLIMIT_NPROC, self.processes),
+            (resource.RLIMIT_FSIZE, self.file),
+            (resource.RLIMIT_CORE, 0),
+            (resource.RLIMIT_NOFILE, 512),
+            (resource.RLIMIT_MEMLOCK, 0),
+        ):
+            _, hard = resource.getrlimit(what)
+            bound = most if hard == resource.RLIM_INFINITY else min(most, hard)
+            resource.setrlimit(what, (bound, bound))
+
+
+@dataclass(frozen=True)
+class Order:
+    """Say what is run.
+
+    Attributes:
+        work: The function.
+        limits: What it may use.
+        environment: Its whole environment.
+        user: Who it is, where process 1 is root; else 0.
+    """
+
+    work: Work
+    limits: Limits
+    environment: Mapping[str, str]
+    user: int = 0
+
+
+def descendants(process: int) -> list[int]:
+    """Return the processes below a process; none if it has ended."""
+    below: list[int] = []
+    left = [process]
+    while left:
+        tasks = Path(f"/proc/{left.pop()}/task")
+        with suppress(OSError):  # it may have ended, or one of its threads
+            for task in os.listdir(tasks):
+                with suppress(OSError):
+                    text = (tasks / task / "children").read_text(encoding="ascii")
+                    left += map(int, text.split())
+                    below += map(int, text.split())
+    return below
+
+
+# The process that forks.
+
+
+def serve(descriptor: int, isolated: bool, prepare: Callable[[], object]) -> None:
+    """Run what is ordered, one fork after the other, until nobody orders any more.
+
+    Args:
+        descriptor: The socket over which orders come.
+        isolated: Whether this is process 1 of a sandbox.
+        prepare: Imports what works need.
+    """
+    # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
+    system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
+    # Process 1 hears only signals for which it has a handler, as Python has for this one.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    system_calls.prctl(system_calls.PR_SET_DUMPABLE, 0)
+    if not isolated:
+        system_calls.prctl(system_calls.PR_SET_CHILD_SUBREAPER, 1)
+    first = {path: set(os.listdir(path)) for path in SCRATCH if isolated}
+    prepare()
+    _empty(first)  # libraries of ROS leave something there
+    folders = [os.open(path, os.O_RDONLY | os.O_DIRECTORY) for path in first]
+    with socket.socket(fileno=descriptor) as control:
+        socket.send_fds(control, [READY], folders)
+        while True:
+            _, descriptors, _, _ = socket.recv_fds(control, 100, 2, socket.MSG_CMSG_CLOEXEC)
+            if len(descriptors) < 2:
+                return
+            with os.fdopen(descriptors[0], "rb") as file:
+                order: Order = pickle.load(file)
+            if isolated:
+                code = _forked(order, descriptors[1], "/tmp", _kill_all)
+                _empty(first)
+            else:
+                with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+                    code = _forked(order, descriptors[1], folder, _kill_descendants)
+            control.send(str(code).encode())
+
+
+def _forked(order: Order, result: int, folder: str, kill_all: Callable[[], None]) -> int:
+    """Run an order, and end all that it leaves; return its exit code, or less a signal."""
+    told, tells = os.pipe()
+    child = os.fork()
+    if child == 0:
+        _be_work(order, result, tells, folder)
+    os.close(result)
+    os.close(tells)
+    with os.fdopen(told, "rb") as file:
+        if not file.read():
+            sys.exit("The process of a page could not become what it has to be.")
+    process, status = 0, 0
+    while process != child:  # whatever else loses its parent in there is this process's child, too
+        process, status = os.waitpid(-1, _ALL)
+    with suppress(ChildProcessError):
+        while True:
+            kill_all()
+            os.waitpid(-1, _ALL)
+    return os.waitstatus_to_exitcode(status)
+
+
+def _empty(first: Mapping[str, set[str]]) -> None:
+    """Remove what was written to folders; whoever started this looks whether that was all.
+
+    Args:
+        first: The folders, and what was in them at first.
+    """
+    with suppress(OSError, RecursionError):
+        for entry in [entry for folder in first for entry in os.scandir(folder)]:
+            if entry.name in first[os.path.dirname(entry.path)]:
+                continue
+            if entry.is_dir(follow_symlinks=False):
+                shutil.rmtree(entry.path)
+            else:
+                os.unlink(entry.path)
+
+
+def _kill_all() -> None:
+    with suppress(ProcessLookupError):
+        os.kill(-1, signal.SIGKILL)
+
+
+def _kill_descendants() -> None:
+    for process in descendants(os.getpid()):
+        with suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
+
+
+# The fork.
+
+
+def _be_work(order: Order, result: int, tells: int, folder: str) -> NoReturn:
+    """Be the work, with nothing of what this process was; for good."""
+    code = 1
+    try:
+        os.setsid()
+        os.chdir(folder)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        os.environ.clear()
+        os.environ.update(order.environment)
+        if folder not in SCRATCH:
+            os.environ.update(HOME=folder, TMPDIR=folder)
+        if order.user:
+            system_calls.become(order.user)
+        # A change of the user undoes it. Who ends process 1 ends this, without a sandbox too.
+        system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
+        system_calls.prctl(system_calls.PR_SET_DUMPABLE, 1)
+        null = os.open(os.devnull, os.O_RDWR)
+        order.limits.apply()
+        # From here on, whatever goes wrong is the work's own fault.
+        os.write(tells, b".")
+        for descriptor in range(3):
+            os.dup2(null, descriptor)
+        os.dup2(result, 3, inheritable=False)
+        os.closerange(4, os.sysconf("SC_OPEN_MAX"))
+        order.work(3)
+        code = 0
+    except SystemExit as error:
+        code = error.code if isinstance(error.code, int) else 1
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(code & 0xFF)
+
+
+# What runs in it: pages.
+
 #: What answers use, and what takes time to import.
 _PREPARED = (
     *("rclpy", "rclpy.node", "rclpy.qos", "rclpy.executors", "rclpy.action"),
@@ -50,6 +249,9 @@ _PREPARED = (
     *("rosbeat.page_session", "rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
     *("IPython.core.interactiveshell", "rosbeat.exercises.registry", "rosbeat.exercises.check"),
     *("rosbeat.workspace.terminals", "rosbeat.workspace.magics", "rosbeat.workspace.saving_magic"),
+    *("IPython.core.magics", "pygments.lexers.python", "rosbeat.exercises.quiz"),
+    *("rosbeat.exercises.predict", "rosbeat.viz.diagrams", "matplotlib.backends.backend_svg"),
+    *("mpl_toolkits.mplot3d", "dateutil.parser"),
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (
@@ -59,53 +261,6 @@ _TYPES = (
     *("rcl_interfaces/srv/SetParametersAtomically", "rcl_interfaces/srv/GetParameterTypes"),
     "type_description_interfaces/srv/GetTypeDescription",
 )
-#: Variables that name a file of settings.
-_FILES = (*PROFILE_VARIABLES, "COLCON_DEFAULTS_FILE")
-#: Variables of the environment that ROS needs; nothing else of it reaches a sandbox.
-_KEPT = (
-    *("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_PYTHON_CHECK_FIELDS", "LANG", "LC_ALL", "TZ"),
-    *(*_FILES, "RMW_FASTRTPS_USE_QOS_FROM_XML"),
-)
-#: Folders of this package that hold solutions, or are nobody's business in there.
-_HIDDEN = ("exercises/solved", "grading", "authoring", "workspace/finished")
-#: Seconds that one run of a page may take by the clock on the wall, and bytes of its evidence.
-WALL, RESULT = 240.0, 60_000_000
-#: How a keeper ends that was told that there are no more submissions.
-_NO_MORE = 7
-
-
-def environment() -> dict[str, str]:
-    """Return the environment of a worker: what Python and ROS need, and nothing else.
-
-    The middleware's thousands of functions are looked up once, as it is loaded (ld.so(8)); else
-    each answer would do so anew, for itself. Answers see nothing of this: see `View.environment`.
-    """
-    names = (*_KEPT, "PYTHONPATH", "PYTHONHOME")
-    kept = {name: os.environ[name] for name in names if name in os.environ}
-    return {**kept, "PATH": "/usr/bin:/bin", "LD_BIND_NOW": "1"}
-
-
-def main(options: Sequence[str]) -> None:
-    """Observe submissions until there are no more."""
-    isolated = UNSAFE not in options
-    if isolated:
-        # It works only while there is one thread, and importing ROS starts more. If it is refused,
-        # making a sandbox says so to whoever wants one.
-        with suppress(OSError):
-            become_able()
-    # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
-    system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
-    prepare()
-    view = view_of_answers()
-    while True:
-        select.select([0], [], [])
-        keeper = os.fork()
-        if keeper == 0:
-            system_calls.prctl(system_calls.PR_SET_PDEATHSIG, signal.SIGKILL)
-            os._exit(_keep(view, isolated))
-        _, status = os.waitpid(keeper, 0)
-        if status:
-            sys.exit(0 if os.waitstatus_to_exitcode(status) == _NO_MORE else 1)
 
 
 def prepare() -> None:
@@ -115,7 +270,7 @@ def prepare() -> None:
     recording = importlib.import_module("rosbeat.ros.recording")
     recording.load_type_support(_TYPES)
     recording.repair_message_classes()  # it looks for them once
-    importlib.import_module("rosbeat.grading.transcript")
+    importlib.import_module("rosbeat.grading.page_process")
     # The first log line of a process looks for the file of each module; it finds them here.
     inspect.getmodule(sys._getframe())
     # What is here stays. A fork that looked through it for garbage would copy all of its pages; and
@@ -125,73 +280,13 @@ def prepare() -> None:
     gc.set_threshold(20_000, 20, 20)
 
 
-def view_of_answers() -> View:
-    """Return what answers see: Python, ROS and a part of this package; an empty environment."""
-    kept = {name: os.environ[name] for name in _KEPT if name in os.environ}
-    package = Path(__file__).resolve().parents[1]
-    hidden = [str(package / name) for name in _HIDDEN]
-    readable = [*python_folders(), *_commands(), *(kept[name] for name in _FILES if name in kept)]
-    return View(readable, hidden, {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"})
-
-
-def _commands() -> list[str]:
-    """Return the folder of the `ros2` command, where it is the course's own."""
-    found = importlib.util.find_spec("ros2_command")
-    folders = found.submodule_search_locations if found else None
-    return [str(Path(one).resolve().parent) for one in folders or ()]
-
-
-def _keep(view: View, isolated: bool) -> int:
-    """Observe one submission, in the keeper; return its exit code."""
-    line = _line()
-    if not line:
-        return _NO_MORE
-    try:
-        with Sandbox(view, isolated) as sandbox:
-            for one in json.loads(line):
-                evidence = _observed(read_line(PageJob, one), sandbox)
-                _say(to_line(evidence))
-    except GradingError as error:
-        _say(json.dumps({"refused": [error.what, error.means, error.to_try]}))
-    except BaseException as error:
-        with suppress(OSError):
-            os.write(2, f"A worker ends: {error!r}. Another one does what it did.\n".encode())
-        return 1
-    return 0
-
-
-def _line() -> bytes:
-    """Return the next line; nobody writes another one before this one is answered."""
-    found = bytearray()
-    while not found.endswith(b"\n"):
-        data = os.read(0, 1 << 20)
-        if not data:
-            return b""
-        found += data
-    return bytes(found)
-
-
-def _say(line: str) -> None:
-    data = memoryview(f"{line}\n".encode())
-    while data:
-        data = data[os.write(1, data) :]
-
-
-def limits_of(job: PageJob, seconds: float = WALL) -> Limits:
-    """Return what a run of a page may use; builds and programs in terminals need more processes.
+def main(words: Sequence[str]) -> None:
+    """Run pages as they are ordered.
 
     Args:
-        job: The page.
-        seconds: How long it may take, by the clock on the wall.
+        words: `UNSAFE` if there is no sandbox, and the number of the socket's descriptor.
     """
-    processes, wall = 512 if job.needs_files else 128, min(WALL, seconds)
-    return Limits(wall=wall, cpu=int(wall) + 1, processes=processes, result=RESULT)
-
-
-def _observed(job: PageJob, sandbox: Sandbox) -> PageEvidence:
-    from rosbeat.grading.transcript import observe_page
-
-    return observe_page(job, lambda work, seconds: sandbox.run(work, limits_of(job, seconds)))
+    serve(int(words[-1]), UNSAFE not in words, prepare)
 
 
 if __name__ == "__main__":

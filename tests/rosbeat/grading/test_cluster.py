@@ -5,7 +5,7 @@ import os
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 
 import psutil
@@ -149,16 +149,23 @@ def test_all_workers_killed_and_the_next_run_goes_on_with_another(
     assert found == expected
 
 
-def prepared_processes(worker):
-    children = psutil.Process(worker).children(recursive=True)
-    return [one.pid for one in children if "rosbeat.grading.worker" in one.cmdline()]
+def sandboxes(worker):
+    """The processes of sandboxes that a worker of the cluster has started."""
+    found = []
+    for child in psutil.Process(worker).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):  # it has just ended
+            found += [child.pid] * ("rosbeat.grading.worker" in child.cmdline())
+    return found
 
 
 def test_nothing_is_left_on_the_workers(cluster, eventually):
+    job = PageJob("03", (PageCell("import time\ntime.sleep(600)"),), {"03a": "Beat"})
     with Cluster(cluster.scheduler_address) as found:
         workers = list(found._client.run(os.getpid).values())
-        eventually(lambda: all(map(prepared_processes, workers)))
-    eventually(lambda: not any(map(prepared_processes, workers)))
+        future = found._submitted([job])
+        eventually(lambda: any(map(sandboxes, workers)), 30)
+        del future
+    eventually(lambda: not any(map(sandboxes, workers)), 30)
 
 
 def test_a_cluster_with_another_course_is_refused(cluster, monkeypatch, says):

@@ -15,8 +15,9 @@ import pytest
 from nbclient import NotebookClient
 
 from bank.graded import page_of, usable
-from fake_worker import NOTES
+from fake_sandbox import FakeSandbox
 from grading_files import DONE, PAGE_03, PAGE_04, cell, notebook, page
+from hostile.brief import be_brief
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import to_json
@@ -38,11 +39,8 @@ from rosbeat.grading.marks import Points
 from rosbeat.grading.pool import Pool, Worker, files_before
 from rosbeat.grading.run import Plan, cause_of, grade
 from rosbeat.grading.submissions import collect
-from rosbeat.grading.worker import environment
 from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
 from rosbeat.workspace.prerequisites import Report
-
-TESTS = Path(__file__).parents[2]
 
 # From a class to its gradebook; answers are observed by somebody made up.
 
@@ -304,90 +302,69 @@ def is_alive(pid):
 
 
 @pytest.fixture
-def notes(tmp_path, monkeypatch):
-    """What the fake workers were given, with their process ids."""
-    monkeypatch.setattr(module, "_MODULE", "fake_worker")
-    monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
-    (tmp_path / "notes").touch()
-    went_well = Evidence("ended", seen=to_json(Observation(5, 0, logs=(HEARD,))))
-    (tmp_path / "notes.rehearsal").write_text(to_line(PageEvidence({"03a": went_well})))
-    given = {NOTES: str(tmp_path / "notes")}
+def fakes(monkeypatch):
+    """The sandboxes that workers have made, which do what the cell of a page says."""
+    made = []
 
-    def all_of_it():
-        never = {one: os.environ[one] for one in ("ROSBEAT_NEVER_READY",) if one in os.environ}
-        return {**environment(), **given, **never}
+    def make(view, name, isolated, environment):
+        made.append(FakeSandbox(isolated))
+        return made[-1]
 
-    monkeypatch.setattr(module, "environment", all_of_it)
-
-    def read(word=""):
-        lines = [one.split(" ", 1) for one in (tmp_path / "notes").read_text().splitlines()]
-        return [int(pid) for pid, said in lines if said.startswith(word)]
-
-    return read
+    monkeypatch.setattr(module, "Sandbox", make)
+    return made
 
 
 def done(pool, *words):
     return dict(pool.observe([(one, job(one))] for one in words))
 
 
-def test_each_job_is_done_once_and_known_by_its_key(notes):
+def test_each_job_is_done_once_and_known_by_its_key(fakes):
     words = [f"job{number} \u00e9\ud800" for number in range(40)]
     with Pool(3) as pool:
         found = done(pool, *words)
     assert {key: only(seen).seen for key, seen in found.items()} == {one: one for one in words}
-    assert len(notes("job")) == 40
-    assert len(notes("start")) == 3
+    assert sorted(word for fake in fakes for word in fake.words) == sorted(words)
+    assert sum(fake.starts for fake in fakes) == 40  # two learners share nothing
+    assert all(fake.isolated for fake in fakes)
 
 
-def test_a_job_that_loses_two_workers_is_given_up_and_the_others_go_on(notes, tmp_path):
+def test_a_job_that_loses_two_sandboxes_is_given_up_and_the_others_go_on(fakes):
     """Two learners: the answers of one come in their order, whatever becomes of any of them."""
-    once = f"die-once {tmp_path}/died"
-    words = [once, "job1", "die", "half", "job2", "nonsense", "forged", "job3"]
+    words = ["die-once", "job1", "die", "job2", "forged", "job3"]
     with Pool(2, unsafe=True) as pool:
         found = dict(pool.observe([[(one, job(one)) for one in words], [("job4", job("job4"))]]))
-        assert len(pool.pids) == 2
         assert done(pool) == {}
-    lost = [key for key, seen in found.items() if only(seen).how == LOST]
-    assert lost == ["die", "half", "nonsense", "forged"]
-    assert {only(seen).how for key, seen in found.items() if key not in lost} == {"ended"}
+    hows = {key: only(seen).how for key, seen in found.items()}
+    assert hows == {**dict.fromkeys([*words, "job4"], "ended"), "die": LOST, "forged": FORGED}
     assert [one for one in found if one != "job4"] == words
-    assert len(set(notes("half"))) == len(set(notes("die-once"))) == 2
-    assert len(notes("start --unsafe-no-sandbox")) == len(notes("start"))
+    tried = [word for fake in fakes for word in fake.words]
+    assert [tried.count(word) for word in ("die-once", "die", "job1")] == [2, 2, 1]
+    assert not any(fake.isolated for fake in fakes)
 
 
-def test_a_silent_worker_is_replaced(notes):
-    with Pool(1, patience=1.5) as pool:
-        found = done(pool, "silent", "job")
-    assert {key: only(seen).how for key, seen in found.items()} == {"silent": LOST, "job": "ended"}
-    assert not any(map(is_alive, notes("start")))
-
-
-def test_a_worker_that_cannot_start_or_isolate_is_no_fault_of_an_answer(notes, monkeypatch, says):
-    with Pool(2) as pool, pytest.raises(GradingError) as caught:
+def test_a_sandbox_that_cannot_start_or_be_made_is_no_fault_of_an_answer(fakes, says):
+    with Pool(1) as pool, pytest.raises(GradingError) as caught:
         done(pool, "job", "refuse", "job2")
     says(caught.value, "No sandbox.", "Nothing was run.", "Try this.")
-    before = len(notes("job"))
-    monkeypatch.setenv("ROSBEAT_NEVER_READY", "1")
-    with Pool(2) as pool, pytest.raises(GradingError) as caught:
-        done(pool, "job", "job2")
+    assert fakes[0].words[:2] == ["job", "refuse"]
+    with Pool(1) as pool:
+        fakes[1].never_starts = True
+        with pytest.raises(GradingError) as caught:
+            done(pool, "job")
     says(caught.value, "does not start", "course doctor")
-    assert len(notes("job")) == before
+    assert fakes[1].words == []
 
 
-def test_nothing_is_left_when_somebody_stops_in_the_middle(notes, eventually):
-    with Pool(2, patience=1_000) as pool:  # to wait for a silent one would take too long
+def test_nothing_is_left_when_somebody_stops_in_the_middle(fakes, eventually):
+    with Pool(2) as pool:
         found = pool.observe([(one, job(one))] for one in ("job", "silent", "silent", "job"))
         next(found)
-        eventually(lambda: notes("silent"))
-        pids = pool.pids
-    assert pool.pids == pids  # and nobody takes its place
-    assert not any(map(is_alive, pids))
+        eventually(lambda: any("silent" in fake.words for fake in fakes))
+    assert not pool.pids
     worker = Worker()
     assert [only(one).how for one in worker.observe([job("job")])] == ["ended"]
     worker.kill()
     assert list(worker.observe([job("job")])) == []
-    worker.close()
-    worker.close()
 
 
 # What a worker gives answers, and what it believes of them.
@@ -458,10 +435,6 @@ def test_what_is_prepared_is_all_that_an_answer_needs():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stdout.splitlines()[-1:] == ["4 []"], done.stderr
-    # Nothing of ROS is imported before the right to make sandboxes is had.
-    program = "import rosbeat.grading.worker, sys\nprint({'rclpy', 'numpy'} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert done.stdout.strip() == "set()", done.stderr
 
 
 @pytest.fixture
@@ -477,52 +450,59 @@ def sleeping():
 
 
 @pytest.mark.ros
-def test_what_runs_in_a_sandbox_ends_with_the_worker(sleeping, eventually):
-    _, _, worker = sleeping
-    eventually(lambda: "sleep" in {one.name() for one in worker.children(recursive=True)}, 30)
-    all_of_them = worker.children(recursive=True)
-    assert len(all_of_them) == 4  # the keeper, init, the answer and what that has started
-    worker.kill()
+def test_what_runs_in_a_sandbox_ends_with_it(sleeping, eventually):
+    _, _, outermost = sleeping
+    eventually(lambda: "sleep" in {one.name() for one in outermost.children(recursive=True)}, 30)
+    all_of_them = outermost.children(recursive=True)
+    assert len(all_of_them) == 3  # process 1, the page and what that has started
+    outermost.kill()
     eventually(lambda: not any(is_alive(one.pid) for one in all_of_them), 20)
 
 
 @pytest.mark.ros
-def test_who_loses_its_watchers_is_tried_once_more_and_given_up(sleeping, eventually):
-    pool, found, worker = sleeping
+def test_who_loses_its_sandbox_is_tried_once_more_and_given_up(sleeping, eventually):
+    pool, found, _ = sleeping
     killed = set()
-    for which in ("keeper", "init"):
+    for which in ("outermost", "process 1"):
         eventually(lambda: "sleep" in _names(pool), 60)
-        (worker,) = [psutil.Process(pid) for pid in pool.pids]
-        (keeper,) = worker.children()
-        init = keeper.children()[0]  # the other one, which came later, is the answer
-        (keeper if which == "keeper" else init).kill()
-        killed.add(worker.pid)
-        eventually(lambda gone=worker.pid: not is_alive(gone), 30)
+        (outermost,) = [psutil.Process(pid) for pid in pool.pids]
+        (first,) = outermost.children()
+        (outermost if which == "outermost" else first).kill()
+        killed.add(outermost.pid)
+        eventually(lambda gone=outermost.pid: not is_alive(gone), 30)
     assert only(dict(found)["b"]).how == LOST
     assert len(killed) == 2
 
 
 def _names(pool):
-    """The names of all processes that run below the workers that are there now."""
+    """The names of all processes that run in the sandboxes that are there now."""
     try:
-        workers = [psutil.Process(pid) for pid in pool.pids]
-        return {one.name() for worker in workers for one in worker.children(recursive=True)}
+        outermost = [psutil.Process(pid) for pid in pool.pids]
+        return {one.name() for process in outermost for one in process.children(recursive=True)}
     except psutil.NoSuchProcess:
         return set()
 
 
 @pytest.mark.ros
-def test_it_ends_with_whoever_has_started_it(eventually):
+@pytest.mark.parametrize("unsafe", [False, True])
+def test_it_ends_with_whoever_has_started_it(unsafe, eventually):
     program = (
-        "import sys, time\nfrom rosbeat.grading.pool import Worker\n"
-        "print(Worker().pid, flush=True)\ntime.sleep(600)"
+        "import sys\nfrom rosbeat.grading.pool import Pool\n"
+        "from rosbeat.grading.jobs import PageCell, PageJob\n"
+        "sleeps = PageCell('import time\\ntime.sleep(600)', 1, '03a')\n"
+        "pages = [PageJob('03', cells, {'03a': 'x'}) for cells in ((), (sleeps,))]\n"
+        f"with Pool(1, {unsafe}) as pool:\n"
+        "    for _ in pool.observe([list(enumerate(pages))]):\n"
+        "        print(*pool.pids, flush=True)\n"
     )
     parent = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)
-    worker = int(parent.stdout.readline())
+    outermost = psutil.Process(int(parent.stdout.readline()))
+    eventually(lambda: outermost.children(recursive=True), 20)
+    processes = [outermost, *outermost.children(recursive=True)]
     os.kill(parent.pid, signal.SIGKILL)
     parent.wait()
     parent.stdout.close()
-    eventually(lambda: not is_alive(worker), 20)
+    eventually(lambda: not any(is_alive(one.pid) for one in processes), 20)
 
 
 # The workspace that a page of terminals starts from.
@@ -585,9 +565,8 @@ def test_two_pages_of_one_learner_start_from_their_own_workspace():
 
 @pytest.mark.ros
 def test_what_does_not_end_is_ended_and_the_page_goes_on(monkeypatch):
-    """A cell that no interrupt ends takes its process along; see `hostile.brief_worker`."""
-    monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
-    monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
+    """A cell that no interrupt ends takes its process along; see `hostile.brief`."""
+    be_brief(monkeypatch)
     idle = "__import__('time').sleep(0.01)"  # the processors are for other tests
     interrupted = f"while True:\n    {idle}"  # as a learner ends it
     goes_on = f"while True:\n    try:\n        {idle}\n    except BaseException:\n        pass"
