@@ -27,7 +27,7 @@ _LONGEST = (
     "tests/ros2_command/verbs/test_topic.py",
     "tests/torture/",
     "tests/bank/",
-    *("tests/hostile/", "tests/solutions/", "tests/rosbeat/grading/", "tests/rosbeat/authoring/"),
+    *("tests/hostile/", "tests/solutions/", "tests/rosbeat/page_runs/", "tests/rosbeat/grading/", "tests/rosbeat/authoring/"),
     *("tests/with_nbgrader/", "tests/rosbeat/test_check_command.py"),
     *("tests/rosbeat/exercises/test_system.py", "tests/notebooks/test_closed_holes.py"),
     *("tests/ros/test_qos_events.py", "tests/ros/test_scenario.py"),

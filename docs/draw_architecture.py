@@ -22,6 +22,7 @@ PICTURE = ROOT / "docs" / "images" / "architecture.svg"
 ROOMS = {
     "cli": (1.5, "the command rosbeat"),
     "grading": (1.5, "submissions → marks"),
+    "page_runs": (1.5, "a page in a sandbox, judged"),
     "exercises": (1.5, "scenario, judge and hints"),
     "clinic": (1.5, "broken systems to diagnose"),
     "page_session": (1.5, "the Session of a page"),

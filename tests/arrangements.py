@@ -6,7 +6,7 @@ import textwrap
 from functools import cache
 
 from bank.pages import ROOT
-from rosbeat.grading.notebook import CoursePage, course_pages
+from rosbeat.page_runs.notebook import CoursePage, course_pages
 
 
 @cache

@@ -5,7 +5,7 @@ import threading
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import to_json
-from rosbeat.grading.sandbox import Ending
+from rosbeat.page_runs.sandbox import Ending
 from rosbeat.records import LogRecord, Observation
 
 _HEARD = LogRecord(1_000_000_000, "INFO", "rehearsal", "21.0", "hear", 12)

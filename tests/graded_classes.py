@@ -5,7 +5,7 @@ import random
 from rosbeat.exercises.registry import PAGES
 from rosbeat.grading.marks import Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark
-from rosbeat.grading.traces import trace_of
+from rosbeat.page_runs.traces import trace_of
 from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, Part, QoS, Sample
 
 #: Texts that a stranger may put where a name, a file or a log line belongs.

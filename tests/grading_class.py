@@ -3,8 +3,8 @@
 import json
 
 from bank.pages import ROOT
-from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.submissions import collect
+from rosbeat.page_runs.notebook import course_pages
 
 
 def pages_of(*numbers):

@@ -7,7 +7,7 @@ from rosbeat.grading.manual_marks import apply_manual, read_manual, write_templa
 from rosbeat.grading.marks import Gradebook, Graded, Solution
 from rosbeat.grading.results import write_results
 from rosbeat.grading.review import Review, ReviewServer
-from rosbeat.grading.traces import trace_of
+from rosbeat.page_runs.traces import trace_of
 from serving import serving
 
 #: Answers that differ in layout, in names, and in what they do.

@@ -22,9 +22,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.sandbox import Sandbox, View, bubblewrap, python_folders
-from rosbeat.grading.system_calls import REFUSED, number_of
-from rosbeat.grading.worker import UNSAFE, Limits, descendants, serve
+from rosbeat.page_runs.sandbox import Sandbox, View, bubblewrap, python_folders
+from rosbeat.page_runs.system_calls import REFUSED, number_of
+from rosbeat.page_runs.worker import UNSAFE, Limits, descendants, serve
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
 SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (0.7, 15.0))

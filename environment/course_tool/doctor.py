@@ -25,7 +25,7 @@ _COMMANDS = {"ros2": "pkg prefix rclpy", "colcon": "version-check --help", "rosb
 #: Prints the path of a bubblewrap that works; else what is wrong, and what to do about it.
 _SANDBOX = """
 from rosbeat.errors import GradingError
-from rosbeat.grading.sandbox import bubblewrap
+from rosbeat.page_runs.sandbox import bubblewrap
 try:
     print(bubblewrap()[0])
 except GradingError as error:

@@ -16,11 +16,11 @@ from rosbeat.errors import ExerciseError
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.outcome_display import OPEN, RIGHT, WRONG, Shown
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page
-from rosbeat.grading.jobs import PageEvidence, PageJob
-from rosbeat.grading.judging import judge
-from rosbeat.grading.notebook import Cell, course_pages, read_notebook
-from rosbeat.grading.pool import Pool
-from rosbeat.grading.submitted_page import own_page, subject_in, subject_of
+from rosbeat.page_runs.jobs import PageEvidence, PageJob
+from rosbeat.page_runs.judging import judge
+from rosbeat.page_runs.notebook import Cell, course_pages, read_notebook
+from rosbeat.page_runs.pool import Pool
+from rosbeat.page_runs.submitted_page import own_page, subject_in, subject_of
 from rosbeat.records_json import to_json
 from rosbeat.workspace.location import course_root
 

@@ -29,7 +29,7 @@ from bank.reading import Answer, answers, held_out
 from bank.running import observed, told
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.traces import HEARD, Lane, Trace, read_trace, trace_of
+from rosbeat.page_runs.traces import HEARD, Lane, Trace, read_trace, trace_of
 from rosbeat.records import Outcome
 from rosbeat.records_json import as_data
 

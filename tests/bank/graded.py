@@ -9,11 +9,11 @@ from bank import workspaces
 from bank.pages import ROOT
 from bank.reading import Answer, answers
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.jobs import PageJob
-from rosbeat.grading.judging import judge, untouched
-from rosbeat.grading.notebook import Cell, CoursePage, course_pages
-from rosbeat.grading.pool import Pool
-from rosbeat.grading.submitted_page import submitted_page
+from rosbeat.page_runs.jobs import PageJob
+from rosbeat.page_runs.judging import judge, untouched
+from rosbeat.page_runs.notebook import Cell, CoursePage, course_pages
+from rosbeat.page_runs.pool import Pool
+from rosbeat.page_runs.submitted_page import submitted_page
 from rosbeat.records import Outcome
 
 #: Lines above an answer in its cell. Answers to the exercises about workspaces that are not here

@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from rosbeat.grading import pool
+from rosbeat.page_runs import pool
 
 _TESTS = Path(__file__).parents[1]
 

@@ -2,13 +2,13 @@
 
 import sys
 
-from rosbeat.grading import worker
+from rosbeat.page_runs import worker
 
 
 def prepare():
     """Import what answers need, and give them less time."""
     worker.prepare()
-    from rosbeat.grading import page_process
+    from rosbeat.page_runs import page_process
 
     page_process.CELL_SECONDS, page_process.CHECK_SECONDS = 4.0, 3.5
     page_process.GRACE = 1.5

@@ -49,7 +49,7 @@ DEEDS = (
     Deed(
         "evidence by another to_json",
         before(
-            "import sys\nmodule = sys.modules['rosbeat.grading.page_process']\n"
+            "import sys\nmodule = sys.modules['rosbeat.page_runs.page_process']\n"
             "real = module.to_json\n"
             "def fake(seen):\n"
             "    import dataclasses\n"

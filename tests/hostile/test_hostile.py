@@ -15,12 +15,12 @@ from hostile.deed import CANARY, TRACE
 from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large
 from hostile.pages import ROOT
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.notebook import course_pages
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.remarks import REACHES_INSIDE
 from rosbeat.grading.results import write_results
 from rosbeat.grading.run import Plan, grade
 from rosbeat.grading.submissions import collect
+from rosbeat.page_runs.notebook import course_pages
+from rosbeat.page_runs.pool import Pool
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(600), pytest.mark.xdist_group("hostile")]
 PAGES = {

@@ -18,9 +18,9 @@ from rosbeat.errors import RecordError
 from rosbeat.exercises import evidence
 from rosbeat.exercises.greenhouse import Rubric
 from rosbeat.exercises.progress import Standing
-from rosbeat.grading.jobs import PageEvidence, PageJob
 from rosbeat.grading.marks import Gradebook
-from rosbeat.grading.traces import Trace
+from rosbeat.page_runs.jobs import PageEvidence, PageJob
+from rosbeat.page_runs.traces import Trace
 from rosbeat.records import (
     Observation,
     Outcome,

@@ -97,7 +97,7 @@ def keys(out):
 
 
 def sandboxes_of(parent):
-    return [child for child in parent.children() if "rosbeat.grading.worker" in child.cmdline()]
+    return [child for child in parent.children() if "rosbeat.page_runs.worker" in child.cmdline()]
 
 
 def firsts_of(parent):

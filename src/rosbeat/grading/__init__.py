@@ -1,15 +1,13 @@
-"""Grade submissions: read them, run them in sandboxes, judge them outside, report.
+"""Grade submissions: read them, have them run and judged, report.
 
 `docs/architecture.md` follows one answer through the whole pipeline. `commands` contains the entry
 points of `rosbeat release`, `collect` and `grade`.
 
-- Input: `submissions` and `archives` (folders, zips), `downloads` (whose a file is), `notebook`
-  (pages, submitted and the course's), `roster`, `teams`, `deadlines`, `files` (CSV, safe names,
-  whole writes).
+- Input: `submissions` and `archives` (folders, zips), `downloads` (whose a file is), `roster`,
+  `teams`, `deadlines`, `files` (CSV, safe names, whole writes).
 - `platforms`: a module for each learning platform, with its downloads, rosters and uploads.
-- Running: `answers` and `jobs` (which code is run), `run` (a whole run), `pool` (of workers),
-  `worker`, `sandbox`, `system_calls`, `observing`, `cluster`.
-- Judging: `judging`, `ledger` (judged answers, so that a run can resume).
+- Judging: `run` (a whole run: pages go to `rosbeat.page_runs`), `cluster`, `ledger` (judged
+  answers, so that a run can resume).
 - Marks: `marks` (with what exercises are worth), `manual_marks` (points given by hand), `results`,
   `csv_exports` (the table of all marks), `groups`, `lock` (one run at a time in a folder).
 - One submission: `one_submission` (for people and programs) and `platforms.autograders`.

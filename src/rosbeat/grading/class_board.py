@@ -32,8 +32,8 @@ from rosbeat.exercises.registry import EXERCISES, PAGES, Page
 from rosbeat.exercises.share import DAY, SETTING, class_folder
 from rosbeat.grading.class_folder import ClassFolder, Learner, Reading, Record
 from rosbeat.grading.rendering import Segment, render
-from rosbeat.grading.traces import Picture, picture
 from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
+from rosbeat.page_runs.traces import Picture, picture
 from rosbeat.records_json import to_json
 from rosbeat.viz.text_format import count
 

@@ -18,9 +18,9 @@ from typing import Any, TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.files import printable
-from rosbeat.grading.jobs import PageEvidence, PageJob, lost, read_line, to_line
 from rosbeat.grading.ledger import course_version
-from rosbeat.grading.pool import Pool
+from rosbeat.page_runs.jobs import PageEvidence, PageJob, lost, read_line, to_line
+from rosbeat.page_runs.pool import Pool
 
 try:
     import distributed

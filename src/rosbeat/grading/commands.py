@@ -38,17 +38,14 @@ from rosbeat.errors import (
     SubmissionError,
 )
 from rosbeat.grading.files import printable, write_whole
-from rosbeat.grading.jobs import PageEvidence, PageJob
 from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version, new_seed, seed_of
 from rosbeat.grading.lock import alone_in
 from rosbeat.grading.manual_marks import FILE as MANUAL
 from rosbeat.grading.manual_marks import apply_manual, read_manual
 from rosbeat.grading.marks import HELD, Gradebook, Points, read_points
-from rosbeat.grading.notebook import Cell, CoursePage, course_pages, read_notebook
 from rosbeat.grading.one_submission import FORMS
 from rosbeat.grading.platforms.autograders import AUTOGRADERS
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.release import Released, catches_up, release
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.results import RESULTS, summary, write_results
@@ -63,6 +60,9 @@ from rosbeat.grading.submissions import (
     require_apart,
     require_submissions,
 )
+from rosbeat.page_runs.jobs import PageEvidence, PageJob
+from rosbeat.page_runs.notebook import Cell, CoursePage, course_pages, read_notebook
+from rosbeat.page_runs.pool import Pool
 from rosbeat.records_json import from_json, to_json
 from rosbeat.viz.text_format import count
 from rosbeat.workspace.location import course_root

@@ -48,7 +48,7 @@ from rosbeat.grading.rendering import (
     so_far,
     visible,
 )
-from rosbeat.grading.traces import Picture, picture
+from rosbeat.page_runs.traces import Picture, picture
 
 #: The folder of all such pages.
 FOLDER = "feedback"

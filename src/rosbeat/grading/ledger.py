@@ -20,7 +20,7 @@ from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading.files import printable
-from rosbeat.grading.jobs import PageJob, to_line
+from rosbeat.page_runs.jobs import PageJob, to_line
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 

@@ -24,8 +24,8 @@ from rosbeat.exercises.exercise import BLANK
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.files import printable, write_whole
 from rosbeat.grading.marks import Points, read_points
-from rosbeat.grading.notebook import CoursePage, course_pages, read_notebook
 from rosbeat.grading.submissions import MARKER
+from rosbeat.page_runs.notebook import CoursePage, course_pages, read_notebook
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.prerequisites import NODES, PACKAGE
 

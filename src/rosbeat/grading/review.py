@@ -34,8 +34,8 @@ from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import render
 from rosbeat.grading.results import summary
 from rosbeat.grading.roster import Lookup, UnusableError
-from rosbeat.grading.traces import picture
 from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
+from rosbeat.page_runs.traces import picture
 
 _COLUMNS = ("learner", "name", "exercise", "points", "comment")
 #: Bytes that a browser may send: a comment, and the ids of a large class.

@@ -14,14 +14,14 @@ from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.files import printable
-from rosbeat.grading.jobs import LOST, Evidence, PageEvidence, PageJob
-from rosbeat.grading.judging import WATCHER_LOST, judge_and_trace, untouched
 from rosbeat.grading.ledger import Ledger, key_of
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Points, Solution, scaled
-from rosbeat.grading.notebook import Cell, CoursePage
 from rosbeat.grading.remarks import REACHES_INSIDE, Remark
 from rosbeat.grading.submissions import Collection, HandedIn, Submission
-from rosbeat.grading.submitted_page import NOT_THERE, Answer, SubmittedPage, submitted_page
+from rosbeat.page_runs.jobs import LOST, Evidence, PageEvidence, PageJob
+from rosbeat.page_runs.judging import WATCHER_LOST, judge_and_trace, untouched
+from rosbeat.page_runs.notebook import Cell, CoursePage
+from rosbeat.page_runs.submitted_page import NOT_THERE, Answer, SubmittedPage, submitted_page
 from rosbeat.records import Outcome
 
 #: Has the pages of submissions run, and gives evidence as it comes.

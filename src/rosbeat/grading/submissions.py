@@ -23,10 +23,10 @@ from rosbeat.grading.archives import (
 from rosbeat.grading.archives import opened as opened_file
 from rosbeat.grading.downloads import is_of_one, with_one_owner, with_owners
 from rosbeat.grading.files import printable
-from rosbeat.grading.notebook import CoursePage, Notebook, read_notebook, which_page
 from rosbeat.grading.platforms import own_path, platform_named
 from rosbeat.grading.platforms.base import NOTEBOOKS, Owner
 from rosbeat.grading.remarks import Remark
+from rosbeat.page_runs.notebook import CoursePage, Notebook, read_notebook, which_page
 
 #: The file that marks a folder as a release; see `release`.
 MARKER = ".rosbeat-release.json"

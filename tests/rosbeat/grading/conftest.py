@@ -7,8 +7,8 @@ from rosbeat import cli
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.grading import commands
 from rosbeat.grading import run as run_module
-from rosbeat.grading.jobs import Evidence, PageEvidence
-from rosbeat.grading.notebook import course_pages
+from rosbeat.page_runs.jobs import Evidence, PageEvidence
+from rosbeat.page_runs.notebook import course_pages
 from rosbeat.records import Outcome
 from small_course import small_course
 

@@ -17,12 +17,12 @@ from grading_class import hand_in, pages_of
 from rosbeat.errors import GradingError
 from rosbeat.grading import cluster as module
 from rosbeat.grading.cluster import Cluster
-from rosbeat.grading.jobs import PageCell, PageJob, lost
 from rosbeat.grading.ledger import FILE, Ledger
 from rosbeat.grading.marks import Points
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.results import to_results
 from rosbeat.grading.run import Plan, grade
+from rosbeat.page_runs.jobs import PageCell, PageJob, lost
+from rosbeat.page_runs.pool import Pool
 
 dask = pytest.importorskip("distributed")
 
@@ -154,7 +154,7 @@ def sandboxes(worker):
     found = []
     for child in psutil.Process(worker).children(recursive=True):
         with suppress(psutil.NoSuchProcess):  # it has just ended
-            found += [child.pid] * ("rosbeat.grading.worker" in child.cmdline())
+            found += [child.pid] * ("rosbeat.page_runs.worker" in child.cmdline())
     return found
 
 

@@ -22,8 +22,8 @@ from rosbeat.grading.platforms import PLATFORMS
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import STATUSES
 from rosbeat.grading.report import class_report
-from rosbeat.grading.submitted_page import NOT_THERE
-from rosbeat.grading.traces import trace_of
+from rosbeat.page_runs.submitted_page import NOT_THERE
+from rosbeat.page_runs.traces import trace_of
 from rosbeat.records import Observation, Sample
 
 

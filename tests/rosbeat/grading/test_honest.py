@@ -10,9 +10,9 @@ import pytest
 import arrangements
 from bank.class_of_learners import answers_to
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.run import Plan, grade
 from rosbeat.grading.submissions import collect
+from rosbeat.page_runs.pool import Pool
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(1800)]
 NUMBERS = ("03", "04", "08", "11", "12")

@@ -6,8 +6,8 @@ import pytest
 
 from rosbeat.errors import GradingError
 from rosbeat.grading import ledger as module
-from rosbeat.grading.jobs import PageCell, PageJob
 from rosbeat.grading.ledger import FILE, SEED_FILE, Ledger, course_version, key_of, seed_of
+from rosbeat.page_runs.jobs import PageCell, PageJob
 from rosbeat.records import Outcome, Part
 
 JOB = PageJob("03", (PageCell("class Beat: ..."),), {"03a": "Beat"})

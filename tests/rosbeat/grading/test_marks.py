@@ -10,10 +10,10 @@ from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import FAILED, PASSED
 from rosbeat.grading import run
 from rosbeat.grading.deadlines import LateRule, mark_late, read_due, read_late_rule
-from rosbeat.grading.jobs import Evidence, PageEvidence
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.marks import Points, read_points, scaled
 from rosbeat.grading.submissions import Collection, Submission, collect
+from rosbeat.page_runs.jobs import Evidence, PageEvidence
 from rosbeat.records import Outcome
 
 

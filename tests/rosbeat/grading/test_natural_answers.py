@@ -14,10 +14,10 @@ from bank.graded import course, usable
 from bank.pages import ROOT
 from natural_answers import STYLES, WRITTEN
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.run import Plan, grade
 from rosbeat.grading.submissions import collect
-from rosbeat.grading.submitted_page import subject_of
+from rosbeat.page_runs.pool import Pool
+from rosbeat.page_runs.submitted_page import subject_of
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(300), pytest.mark.xdist_group("natural")]
 #: Pages whose exercises are answered with a class of one cell.

@@ -17,12 +17,12 @@ from rosbeat import cli
 from rosbeat.errors import CommandError, StoppedError
 from rosbeat.grading import commands
 from rosbeat.grading.commands import WAITS
-from rosbeat.grading.jobs import LOST, Evidence, PageEvidence
 from rosbeat.grading.marks import Gradebook, Graded
 from rosbeat.grading.one_submission import FORMAT, FORMS, finding
 from rosbeat.grading.platforms.autograders import AUTOGRADERS
 from rosbeat.grading.remarks import REACHES_INSIDE, Remark
 from rosbeat.grading.results import VERSION
+from rosbeat.page_runs.jobs import LOST, Evidence, PageEvidence
 from rosbeat.records import Part
 from small_course import PAGES
 

@@ -14,7 +14,6 @@ from grading_files import page as page_text
 from rosbeat.errors import GradingError
 from rosbeat.exercises.hint import answer_to
 from rosbeat.grading import release as module
-from rosbeat.grading.notebook import course_pages
 from rosbeat.grading.release import (
     FIRST_TO_CATCH_UP,
     WORKFLOW,
@@ -23,6 +22,7 @@ from rosbeat.grading.release import (
     release_files,
 )
 from rosbeat.grading.submissions import MARKER
+from rosbeat.page_runs.notebook import course_pages
 from rosbeat.workspace.prerequisites import NEEDS
 from small_course import small_course, tree
 

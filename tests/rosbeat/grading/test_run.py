@@ -22,8 +22,12 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading import pool as module
-from rosbeat.grading.jobs import (
+from rosbeat.grading.ledger import Ledger
+from rosbeat.grading.marks import Points
+from rosbeat.grading.run import Plan, cause_of, grade
+from rosbeat.grading.submissions import collect
+from rosbeat.page_runs import pool as module
+from rosbeat.page_runs.jobs import (
     FORGED,
     LOST,
     Evidence,
@@ -33,12 +37,8 @@ from rosbeat.grading.jobs import (
     read_line,
     to_line,
 )
-from rosbeat.grading.judging import judge
-from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.marks import Points
-from rosbeat.grading.pool import Pool, Worker, files_before
-from rosbeat.grading.run import Plan, cause_of, grade
-from rosbeat.grading.submissions import collect
+from rosbeat.page_runs.judging import judge
+from rosbeat.page_runs.pool import Pool, Worker, files_before
 from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
 from rosbeat.workspace.prerequisites import Report
 
@@ -420,7 +420,7 @@ def answer(text):
 @pytest.mark.ros
 def test_what_is_prepared_is_all_that_an_answer_needs():
     program = (
-        "from rosbeat.grading.worker import prepare\nprepare()\n"
+        "from rosbeat.page_runs.worker import prepare\nprepare()\n"
         "import sys\nfrom rclpy.node import Node\nfrom std_msgs.msg import Float32\n"
         "from rosbeat.ros.scenario import observe\nknown = set(sys.modules)\n"
         "class Beat(Node):\n"
@@ -487,8 +487,8 @@ def _names(pool):
 @pytest.mark.parametrize("unsafe", [False, True])
 def test_it_ends_with_whoever_has_started_it(unsafe, eventually):
     program = (
-        "import sys\nfrom rosbeat.grading.pool import Pool\n"
-        "from rosbeat.grading.jobs import PageCell, PageJob\n"
+        "import sys\nfrom rosbeat.page_runs.pool import Pool\n"
+        "from rosbeat.page_runs.jobs import PageCell, PageJob\n"
         "sleeps = PageCell('import time\\ntime.sleep(600)', 1, '03a')\n"
         "pages = [PageJob('03', cells, {'03a': 'x'}) for cells in ((), (sleeps,))]\n"
         f"with Pool(1, {unsafe}) as pool:\n"

@@ -16,9 +16,9 @@ from rosbeat.errors import GradingError
 from rosbeat.grading import archives
 from rosbeat.grading.deadlines import mark_late, read_due
 from rosbeat.grading.files import printable
-from rosbeat.grading.notebook import read_notebook, which_page
 from rosbeat.grading.platforms import own_path
 from rosbeat.grading.submissions import collect, require_apart
+from rosbeat.page_runs.notebook import read_notebook, which_page
 
 MORE_03 = json.dumps({**json.loads(PAGE_03), "cells": [*json.loads(PAGE_03)["cells"], cell("1")]})
 BOTH = {"03_write.ipynb": PAGE_03, "04_listen.ipynb": PAGE_04}

@@ -11,10 +11,10 @@ import pytest
 
 from arrangements import ARRANGEMENTS, ONE_NAME, course
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.judging import judge
-from rosbeat.grading.notebook import read_notebook
-from rosbeat.grading.pool import Pool
-from rosbeat.grading.submitted_page import submitted_page
+from rosbeat.page_runs.judging import judge
+from rosbeat.page_runs.notebook import read_notebook
+from rosbeat.page_runs.pool import Pool
+from rosbeat.page_runs.submitted_page import submitted_page
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(900), pytest.mark.xdist_group("arrangements")]
 NUMBERS = [page.number for page in course().values() if page.wanted]

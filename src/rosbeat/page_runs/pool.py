@@ -24,17 +24,16 @@ from typing import TypeVar
 from rosbeat.environment import PROFILE_VARIABLES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import from_json
-from rosbeat.grading.jobs import Evidence, PageCell, PageEvidence, PageJob, lost
-from rosbeat.grading.sandbox import Sandbox, View, python_folders
-from rosbeat.grading.transcript import observe_page
-from rosbeat.grading.worker import Limits
+from rosbeat.page_runs.jobs import Evidence, PageCell, PageEvidence, PageJob, lost
+from rosbeat.page_runs.sandbox import Sandbox, View, python_folders
+from rosbeat.page_runs.transcript import observe_page
+from rosbeat.page_runs.worker import Limits
 from rosbeat.records import Observation
 from rosbeat.workspace.prerequisites import catch_up
 
 Key = TypeVar("Key")
-#: What runs inside of a sandbox, and the modules of this folder that it consists of.
-_MODULE = "rosbeat.grading.worker"
-_MODULES = ("__init__", "jobs", "page_process", "system_calls", "tampering", "worker")
+#: What runs inside of a sandbox.
+_MODULE = "rosbeat.page_runs.worker"
 #: Variables that name a file of settings.
 _FILES = (*PROFILE_VARIABLES, "COLCON_DEFAULTS_FILE")
 #: Variables of the environment that ROS needs; nothing else of it reaches a sandbox.
@@ -96,11 +95,9 @@ def view_of_answers() -> View:
     """Return what answers see: Python, ROS and a part of this package; an empty environment."""
     kept = {name: os.environ[name] for name in _KEPT if name in os.environ}
     package = Path(__file__).resolve().parents[1]
-    sources = [str(package / "grading" / f"{name}.py") for name in _MODULES]
     return View(
         [*python_folders(), *_commands(), *(kept[name] for name in _FILES if name in kept)],
         [str(package / name) for name in _HIDDEN],
-        [*sources, *map(importlib.util.cache_from_source, sources)],
         {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"},
     )
 

@@ -18,8 +18,8 @@ from hashlib import sha256
 
 from rosbeat.exercises.cells import answer_in
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.jobs import PageCell, PageJob
-from rosbeat.grading.notebook import Cell, CoursePage
+from rosbeat.page_runs.jobs import PageCell, PageJob
+from rosbeat.page_runs.notebook import Cell, CoursePage
 
 #: What is said of an answer if no cell of the page names it.
 NOT_THERE = "No cell of the page defines it."

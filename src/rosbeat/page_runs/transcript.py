@@ -18,9 +18,9 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from rosbeat.grading.jobs import FORGED, Evidence, PageEvidence, PageJob
-from rosbeat.grading.page_process import Earlier, run_page
-from rosbeat.grading.sandbox import Ending
+from rosbeat.page_runs.jobs import FORGED, Evidence, PageEvidence, PageJob
+from rosbeat.page_runs.page_process import Earlier, run_page
+from rosbeat.page_runs.sandbox import Ending
 
 #: How often a page is run anew, since a cell or an answer has ended its process.
 _MOST_RUNS = 8

@@ -40,9 +40,9 @@ from rosbeat.exercises import check as check_module
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading import system_calls
-from rosbeat.grading.jobs import FORGED, Evidence, PageCell, PageJob
-from rosbeat.grading.tampering import watch_tampering
+from rosbeat.page_runs import system_calls
+from rosbeat.page_runs.jobs import FORGED, Evidence, PageCell, PageJob
+from rosbeat.page_runs.tampering import watch_tampering
 from rosbeat.workspace import register as register_commands
 from rosbeat.workspace.location import PAGE, STEADY
 from rosbeat.workspace.location import workspace as workspace_folder

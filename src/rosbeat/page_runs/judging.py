@@ -15,9 +15,9 @@ from rosbeat.errors import RecordError
 from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
 from rosbeat.exercises.random_inputs import PAGE
-from rosbeat.grading.jobs import FORGED, LOST, Evidence
-from rosbeat.grading.submitted_page import NOT_THERE
-from rosbeat.grading.traces import trace_of
+from rosbeat.page_runs.jobs import FORGED, LOST, Evidence
+from rosbeat.page_runs.submitted_page import NOT_THERE
+from rosbeat.page_runs.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome
 
 _WHERE = "the cell"

@@ -46,8 +46,8 @@ from functools import cache
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading import system_calls
-from rosbeat.grading.worker import (
+from rosbeat.page_runs import system_calls
+from rosbeat.page_runs.worker import (
     MB,
     READY,
     RIGHTS,
@@ -70,13 +70,11 @@ class View:
     Attributes:
         readable: Files and folders that may be read, at their own paths.
         hidden: Folders in those that are empty.
-        kept: Files in the hidden folders that are shown all the same.
         environment: The whole environment of a work.
     """
 
     readable: Sequence[str] = ()
     hidden: Sequence[str] = ()
-    kept: Sequence[str] = ()
     environment: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -613,8 +611,6 @@ def _arguments(
     hidden = [path for path in view.hidden if os.path.isdir(path)]
     for path in hidden:
         words += ["--perms", "0755", "--size", "65536", "--tmpfs", path]
-    for path in filter(os.path.exists, view.kept):
-        words += ["--ro-bind", path, path]
     for path in (*hidden, "/dev", "/"):
         words += ["--remount-ro", path]
     return [*words, "--chdir", "/"], descriptors

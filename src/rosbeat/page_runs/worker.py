@@ -1,8 +1,8 @@
 """Run inside a sandbox: import once what pages need, then fork for each run of a page.
 
-`python -m rosbeat.grading.worker DESCRIPTOR` is process 1 of a sandbox, whose outside is `sandbox`.
-Over the socket that it inherits it gets orders, each as a file, and the pipe for the result. It
-answers with how the fork ended.
+`python -m rosbeat.page_runs.worker DESCRIPTOR` is process 1 of a sandbox, whose outside is
+`sandbox`. Over the socket that it inherits it gets orders, each as a file, and the pipe for the
+result. It answers with how the fork ended.
 
 Process 1 never runs anything of a learner, hears no signal from inside, and lets nobody look into
 it. ROS itself is only started in forks: a context of this process would not work there.
@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
-from rosbeat.grading import system_calls
+from rosbeat.page_runs import system_calls
 
 MB = 1_000_000
 #: What makes a worker run answers without a sandbox.
@@ -270,7 +270,7 @@ def prepare() -> None:
     recording = importlib.import_module("rosbeat.ros.recording")
     recording.load_type_support(_TYPES)
     recording.repair_message_classes()  # it looks for them once
-    importlib.import_module("rosbeat.grading.page_process")
+    importlib.import_module("rosbeat.page_runs.page_process")
     # The first log line of a process looks for the file of each module; it finds them here.
     inspect.getmodule(sys._getframe())
     # What is here stays. A fork that looked through it for garbage would copy all of its pages; and

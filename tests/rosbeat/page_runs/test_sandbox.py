@@ -13,9 +13,9 @@ import pytest
 
 import sandbox_attacks as deeds_module
 from rosbeat.errors import GradingError
-from rosbeat.grading import sandbox as module
-from rosbeat.grading.sandbox import View, bubblewrap, cannot_be_made
-from rosbeat.grading.worker import Limits
+from rosbeat.page_runs import sandbox as module
+from rosbeat.page_runs.sandbox import View, bubblewrap, cannot_be_made
+from rosbeat.page_runs.worker import Limits
 
 PROGRAM = Path(__file__).parents[2] / "sandbox_attacks.py"
 

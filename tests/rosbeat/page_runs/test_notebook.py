@@ -5,8 +5,8 @@ import json
 import pytest
 
 from grading_files import PAGE_03, cell, notebook
-from rosbeat.grading import notebook as module
-from rosbeat.grading.notebook import read_notebook
+from rosbeat.page_runs import notebook as module
+from rosbeat.page_runs.notebook import read_notebook
 
 
 def read(text):
