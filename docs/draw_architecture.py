@@ -20,7 +20,7 @@ PICTURE = ROOT / "docs" / "images" / "architecture.svg"
 
 #: Column and purpose of each room.
 ROOMS = {
-    "cli": (1.5, "the command rosbeat"),
+    "cli": (0.3, "the command rosbeat"),
     "grading": (1.5, "submissions → marks"),
     "page_runs": (1.5, "a page in a sandbox, judged"),
     "exercises": (1.5, "scenario, judge and hints"),
