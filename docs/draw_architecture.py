@@ -48,8 +48,10 @@ PART_OF = {
     "domains": "environment",
     "local_server": "grading",
     "jupyter_lease": "environment",
+    "page_names": "environment",
     "inspection": "page_session",
     "page_errors": "page_session",
+    "page_cells": "page_session",
     "testing": "ros",
     "pytest_plugin": "ros",
 }

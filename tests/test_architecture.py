@@ -35,7 +35,9 @@ MAY_IMPORT = {
     "ros": {"records", "errors", "environment", "domains"},
     "inspection": {"records", "domains", "ros", "diagnosis"},
     "panel": {"records", "errors", "viz", "ros"},
-    "page_errors": {"errors", "records", "diagnosis"},
+    "page_names": set(),
+    "page_cells": {"page_names", "workspace"},
+    "page_errors": {"errors", "records", "diagnosis", "page_cells", "page_names"},
     "record_display": {"records"},
     "page_session": {"errors", "records", "ros", "diagnosis", "inspection", "panel"},
     "testing": {"errors", "records", "ros"},
@@ -50,20 +52,20 @@ MAY_IMPORT = {
         *("ros", "records", "records_json", "comparisons", "errors", "viz", "workspace"),
         *("diagnosis", "environment", "rosbeat", "bags", "clinic"),
     },
-    "workspace": {"errors", "records", "environment", "diagnosis"},
+    "workspace": {"errors", "records", "environment", "diagnosis", "page_names"},
     "page_runs": {
-        *("errors", "records", "records_json", "environment", "ros", "viz"),
+        *("errors", "records", "records_json", "environment", "ros", "viz", "page_names"),
         *("exercises", "workspace", "diagnosis", "rosbeat"),
     },
     "grading": {
         *("errors", "records", "records_json", "viz", "exercises", "workspace", "diagnosis"),
         *("page_runs", "rosbeat", "local_server"),
     },
-    "authoring": {"errors", "domains", "environment"},
+    "authoring": {"errors", "domains", "environment", "rosbeat"},
     # The package itself hands out names of other rooms.
     "rosbeat": {
         *("environment", "viz", "page_errors", "record_display", "page_session", "exercises"),
-        *("workspace", "bags", "clinic", "jupyter_lease"),
+        *("workspace", "bags", "clinic", "jupyter_lease", "page_names"),
     },
 }
 #: What `pip install rosbeat` installs with all that it needs: for tests of any ROS developer.

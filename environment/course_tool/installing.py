@@ -35,6 +35,10 @@ KERNEL = "ROS 2 (rosbeat)"
 #: and kernels from elsewhere, which have no ROS. `zz_course.json`: of files that say different
 #: things, the last one in the alphabet counts.
 _LAB_FILES = Path(__file__).with_name("lab_files")
+#: Makes every kernel of an environment bring the names of the course (`rosbeat.page_names`), also
+#: one that an editor starts. Of IPython's settings, a person's own list of extensions replaces
+#: another list, but not `extra_extensions`.
+KERNEL_CONFIG = Path("etc", "ipython", "ipython_kernel_config.json")
 _COMPLETIONS = {
     "ros2": ("ros2", "completion", "bash"),
     "colcon": ("register-python-argcomplete", "colcon"),
@@ -160,12 +164,17 @@ def _for_pip(environ: Mapping[str, str]) -> dict[str, str]:
 def write_ours(layout: Layout, environ: Mapping[str, str]) -> None:
     """Make an environment that pip has filled an underlay, for `rosbeat new`.
 
-    An environment that has setup files already, as conda's have, stays as it is. So does one that
-    this user may only read: pages work in it, because `import rosbeat` sets the same for them.
+    Setup files that are there already, as conda brings them, stay as they are. So does an
+    environment that this user may only read: there, `import rosbeat` sets the same for a page.
     """
+    if not os.access(layout.site_packages, os.W_OK):
+        return
+    config = layout.venv / KERNEL_CONFIG
+    if not config.exists():
+        config.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(_LAB_FILES / KERNEL_CONFIG, config)
     hook, setup = layout.site_packages / _HOOK, layout.venv / "local_setup.bash"
-    is_foreign = setup.exists() and not hook.exists()
-    if is_foreign or not os.access(layout.site_packages, os.W_OK):
+    if setup.exists() and not hook.exists():
         return
     write_start_hook(layout)
     write_underlay(layout, environ)

@@ -24,14 +24,13 @@
 # page from top to bottom. While a cell is running, it shows `[*]`. If you get lost, choose
 # *Kernel, Restart Kernel* from the menu and start again at the top.
 #
-# The first cell imports what this page needs, and draws what you'll build in this course. The part in colour is what
-# this page is about.
+# The first cell imports what this page needs of ROS, and draws what you'll build in this course. The part in colour is
+# what this page is about. Names such as `viz`, `Session` and `check` belong to the course, and its pages know them
+# without an import. In any other notebook, run `import rosbeat` first.
 
 # %%
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
-
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
 viz.diagram("00")
 

@@ -22,12 +22,10 @@
 #
 # ## Open a terminal
 #
-# People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). This cell makes
-# terminals available on your page, and draws the map of the course again:
+# People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). Your page has terminals
+# of its own. The first cell draws the map of the course again:
 
 # %%
-from rosbeat import check, hint, progress, quiz, viz, workspace
-
 viz.diagram("01")
 
 # %% [markdown]

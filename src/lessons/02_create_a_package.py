@@ -24,8 +24,6 @@
 # It never changes what you have made.
 
 # %%
-from rosbeat import check, hint, progress, quiz, viz, workspace
-
 viz.diagram("02")
 
 # %% [markdown]

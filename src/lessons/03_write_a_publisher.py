@@ -28,7 +28,7 @@
 # - `random` is part of Python. It makes the temperature fluctuate;
 # - `signal` is part of Python, too. Further down, you'll use it to interrupt a program.
 #
-# The import from `rosbeat` belongs to this course. A robot doesn't need it.
+# A robot's file begins with the same imports: nothing here belongs to the course.
 
 # %%
 import random
@@ -37,8 +37,6 @@ import signal
 import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32
-
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
 viz.diagram("03")
 

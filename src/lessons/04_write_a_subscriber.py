@@ -25,8 +25,6 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
-
 viz.diagram("04")
 
 # %% [markdown]

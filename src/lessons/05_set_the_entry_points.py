@@ -21,8 +21,6 @@
 # for each. If something from an earlier page is missing, the course creates it when the first terminal opens.
 
 # %%
-from rosbeat import check, hint, progress, quiz, viz, workspace
-
 viz.diagram("05")
 
 # %% [markdown]

@@ -23,8 +23,6 @@
 # %%
 import os
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
-
 viz.diagram("06")
 
 # %% [markdown]

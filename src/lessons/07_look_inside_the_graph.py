@@ -28,7 +28,6 @@ from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, progress, quiz, viz
 from rosbeat.ros.test_nodes import add_greenhouse
 
 viz.diagram("07")

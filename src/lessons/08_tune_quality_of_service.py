@@ -38,8 +38,6 @@ from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile, Reliabili
 from rclpy.qos import qos_profile_sensor_data
 from std_msgs.msg import Float32, Int32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
-
 viz.diagram("08")
 
 # %% [markdown]

@@ -38,8 +38,6 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallb
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
-
 viz.diagram("09")
 
 # %%

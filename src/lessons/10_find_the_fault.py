@@ -26,8 +26,6 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, clinic, hint, predict, progress, quiz, viz
-
 viz.diagram("10")
 
 # %% [markdown]

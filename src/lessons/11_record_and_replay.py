@@ -35,8 +35,6 @@ import random
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, bags, check, hint, predict, progress, quiz, viz, workspace
-
 viz.diagram("11")
 
 # %% [markdown]

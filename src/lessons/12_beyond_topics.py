@@ -30,8 +30,6 @@ from std_msgs.msg import Bool, Float32, String
 from test_msgs.action import Fibonacci
 from test_msgs.srv import BasicTypes
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
-
 viz.diagram("12")
 
 # %% [markdown]

@@ -29,7 +29,6 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool, Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.exercises.greenhouse import requirements, weather
 
 workspace.catch_up("02")

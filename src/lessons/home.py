@@ -19,6 +19,4 @@
 # turn that on; `rosbeat share`, typed in a terminal, explains what it means.
 
 # %%
-from rosbeat import progress
-
 progress()

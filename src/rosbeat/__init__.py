@@ -4,7 +4,8 @@ A learner needs ten names from here: `Session` runs nodes, `viz` draws what a se
 `predict` compares what you expect with what happens, `check` looks at the answer to an exercise,
 `hint` helps with it, `quiz` asks the questions of a page, `progress` shows how far you are,
 `workspace` is where packages are built, `bags` keeps recordings of runs, `clinic` has broken
-systems to examine.
+systems to examine. The course's kernel brings them to every page, and in any other notebook
+`import rosbeat` does.
 Importing the package is quick and does not import ROS: names load when they are first used
 (PEP 562), so that tools which only build or check pages work where ROS is not installed.
 """
@@ -43,14 +44,6 @@ else:
     environment.apply()
 if os.environ.get("NBGRADER_EXECUTION"):
     import_module("rosbeat.workspace.location").settle_in()
-# Without loading IPython where there is none.
-if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
-    if not os.environ.get("NBGRADER_EXECUTION"):
-        import_module("rosbeat.jupyter_lease").hold_domain()
-    import_module("rosbeat.page_errors").register(_shell)
-    import_module("rosbeat.exercises.cells").register(_shell)
-    import_module("rosbeat.record_display").register(_shell)
-
 _HOMES = {
     "Session": ("rosbeat.page_session", "Session"),
     "bags": ("rosbeat.bags", None),
@@ -75,9 +68,20 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the nam
 
 
 def load_ipython_extension(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
-    """Make the commands of a page known: `%load_ext rosbeat`.
+    """Bring the course to a shell: names, commands, and explained errors (`%load_ext rosbeat`).
+
+    The course's kernels do it when they start; a second time changes nothing.
 
     Args:
-        shell: The shell that loads the extension.
+        shell: The running shell.
     """
-    import_module("rosbeat.workspace").register(shell)
+    if not os.environ.get("NBGRADER_EXECUTION"):
+        import_module("rosbeat.jupyter_lease").hold_domain()
+    import_module("rosbeat.page_names").register(shell, __all__, __getattr__)
+    for part in ("page_errors", "exercises.cells", "record_display", "workspace"):
+        import_module(f"rosbeat.{part}").register(shell)
+
+
+# Without loading IPython where there is none.
+if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
+    load_ipython_extension(_shell)

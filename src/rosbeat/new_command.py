@@ -69,7 +69,10 @@ def next_steps(folder: Path) -> str:
     found = shutil.which("jupyter")
     if (not found or Path(found).parent != binaries) and (binaries / "activate").exists():
         lines.insert(0, f"source {shlex.quote(str(binaries / 'activate'))}")
-    return "\n".join(["Open them:", *(f"    {line}" for line in lines)])
+    said = ["Open them:", *(f"    {line}" for line in lines)]
+    if not Path(sys.prefix, _course_tool().installing.KERNEL_CONFIG).exists():
+        said.append("On each page, run `import rosbeat` first: this environment can't be changed.")
+    return "\n".join(said)
 
 
 def _require_wheel() -> None:

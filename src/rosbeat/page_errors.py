@@ -8,6 +8,8 @@ from types import FrameType, TracebackType
 from typing import TYPE_CHECKING
 
 from rosbeat.errors import RosbeatError
+from rosbeat.page_cells import PageCell, cell_that_defines, link_to
+from rosbeat.page_names import learners_names, names_of
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -51,7 +53,9 @@ def _show(
 ) -> None:
     """Show an exception as IPython does, with two lines below it."""
     mine = _lines_of_the_page(shell, trace)
-    means = _explained(shell, error, mine)
+    is_unknown = isinstance(error, NameError) and mine and mine[-1][2]
+    cell = cell_that_defines(shell, getattr(error, "name", "") or "") if is_unknown else None
+    means = _explained(shell, error, mine, cell)
     if means is None:
         shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
         return
@@ -64,6 +68,8 @@ def _show(
     below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"]
     # Not by `showtraceback`: an error that is raised again would keep these lines.
     shell._showtraceback(kind, error, [*shown, *below])
+    if cell is not None and cell.id:
+        shell.display_pub.publish({"text/html": link_to(cell), "text/plain": ""})
 
 
 def _lines_of_the_page(
@@ -79,7 +85,10 @@ def _lines_of_the_page(
 
 
 def _explained(
-    shell: InteractiveShell, error: Exception, mine: list[tuple[FrameType, int, bool]]
+    shell: InteractiveShell,
+    error: Exception,
+    mine: list[tuple[FrameType, int, bool]],
+    cell: PageCell | None,
 ) -> tuple[str, str] | None:
     """Return what an exception means and what to try; None if it says so itself."""
     from IPython.core.error import UsageError
@@ -92,23 +101,39 @@ def _explained(
         return _INDENTATION if isinstance(error, IndentationError) else _SYNTAX
     frame, line, is_last = mine[-1]
     if type(error) is NameError:
-        return _about_name(shell, error) if is_last else None
+        return _about_name(shell, error, cell) if is_last else None
     code = linecache.getline(frame.f_code.co_filename, line).strip()
     return _known(error, line, code) or _UNKNOWN
 
 
-def _about_name(shell: InteractiveShell, error: NameError) -> tuple[str, str] | None:
-    """Return the same for a name that code of the page does not find."""
+def _about_name(
+    shell: InteractiveShell, error: NameError, cell: PageCell | None
+) -> tuple[str, str] | None:
+    """Return the same for a name that code of the page does not find.
+
+    Args:
+        shell: The running shell.
+        error: The error.
+        cell: The cell that defines the name; None if the page has none.
+    """
     name = error.name
     # A blank, `____`, is no mistake yet.
     if not name or not name.strip("_"):
         return None
-    known = [one for one in shell.user_ns if not one.startswith("_")]
-    near = get_close_matches(name, known, 1)
-    to_try = f"Choose {_RUN} If that doesn't help, check the spelling."
-    if near:
-        to_try = f"Did you mean `{near[0]}`? If not, choose {_RUN}"
-    return f"No cell that has run since the kernel started defines `{name}`.", to_try
+    if name in names_of(shell):  # cells find it, so this is the text of a file
+        means = f"Only the cells of a page know `{name}` without an import; this text is a file's."
+        return means, f"A file imports what it uses: `from rosbeat import {name}`."
+    means = f"No cell that has run since the kernel started defines `{name}`."
+    if cell is not None:
+        place = "above" if cell.is_above else "further down"
+        to_try = f"Run the cell {place} {cell}, then this cell again."
+        return means, f"{to_try} Or choose {_RUN}" if cell.is_above else to_try
+    # What the learner has named comes first.
+    for known in (learners_names(shell), names_of(shell)):
+        near = get_close_matches(name, sorted(known), 1)
+        if near:
+            return means, f"Did you mean `{near[0]}`? If not, choose {_RUN}"
+    return means, f"Choose {_RUN} If that doesn't help, check the spelling."
 
 
 def _known(error: Exception, line: int, code: str) -> tuple[str, str] | None:

@@ -109,6 +109,12 @@ def test_the_kernel_has_the_courses_name_and_is_the_only_one(made):
     assert config["KernelSpecManager"] == {"allowed_kernelspecs": ["python3"]}
 
 
+def test_every_kernel_of_the_environment_brings_the_course(made):
+    installing.write_lab_defaults(made)
+    config = json.loads((made.venv / installing.KERNEL_CONFIG).read_text())
+    assert config == {"InteractiveShellApp": {"extra_extensions": ["rosbeat"]}}
+
+
 def test_jupyterlab_stays_without_what_tests_bring_along(made):
     installing.write_lab_defaults(made)
     folder = made.venv / "etc" / "jupyter"

@@ -62,7 +62,9 @@ class OwnInterpreter(KernelSpecManager):
     def get_kernel_spec(self, kernel_name: str) -> KernelSpec:
         """Describe how to start ipykernel with this interpreter."""
         # No history file: the database would be shared with every other kernel of the user.
+        # And the names of the course, also where no configuration of the environment brings them.
         options = ["-f", "{connection_file}", "--HistoryManager.hist_file=:memory:"]
+        options.append("--ext=rosbeat")
         argv = [sys.executable, "-m", "ipykernel_launcher", *options]
         return KernelSpec(argv=argv, display_name=DISPLAY_NAME, language="python")
 

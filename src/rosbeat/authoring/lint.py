@@ -17,6 +17,7 @@ from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
+import rosbeat
 from rosbeat.authoring.source import (
     BLANK,
     Course,
@@ -256,6 +257,18 @@ def _guesses(text: str) -> list[object]:
     ]
 
 
+def needless_import(desk: Desk) -> Iterator[Finding]:
+    """Require that a page imports nothing that its kernel brings; a file imports what it uses."""
+    brought = set(rosbeat.__all__)
+    for cell in (cell for cell in desk.python if not cell.saved_as):
+        for node in ast.walk(tree_of(learner_text(cell)) or ast.Module([], [])):
+            if isinstance(node, ast.ImportFrom) and node.module == "rosbeat":
+                names = [one.name for one in node.names if one.name in brought]
+                if names:
+                    what = f"every page knows {', '.join(names)} without an import."
+                    yield Finding(cell.line + node.lineno - 1, what, "Remove it.")
+
+
 # Links, images, headings and paths.
 
 
@@ -382,6 +395,7 @@ LINTS: tuple[Lint, ...] = (
     answer_outside_exercise,
     exercise_pairs,
     predictions,
+    needless_import,
     broken_link,
     alt_text,
     title,

@@ -28,6 +28,7 @@ from asyncio import events
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,8 @@ from IPython.core.error import StdinNotImplementedError
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
+import rosbeat
+from rosbeat import page_names
 from rosbeat.exercises import cells as exercise_cells
 from rosbeat.exercises import check as check_module
 from rosbeat.exercises.evidence import to_json
@@ -480,6 +483,7 @@ class _Page:
         self._sink.begin()
         with self._patience.cell():
             try:
+                page_names.bring(self._shell, text)
                 code = compile(text, "<check>", "eval", dont_inherit=True)
                 self._check(EXERCISES[exercise], eval(code, self._shell.user_ns))
             except BaseException as error:
@@ -511,6 +515,7 @@ def _new_shell() -> Any:  # noqa: ANN401 - IPython carries no types
     config.InteractiveShell.colors = "NoColor"
     shell: Any = _Shell.instance(config=config)
     exercise_cells.register(shell)
+    page_names.register(shell, rosbeat.__all__, partial(getattr, rosbeat))
     register_commands(shell)
     return shell
 

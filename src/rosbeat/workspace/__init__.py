@@ -8,9 +8,9 @@ Nothing here imports rclpy: what runs in a terminal is another process. On a pag
     workspace.folder()              # where the workspace lies
     workspace.catch_up("05")        # makes what earlier pages leave, as pages do by themselves
 
-Importing it inside IPython registers `%%terminal`, `%terminal` and `%%save`.
+A page knows `%%terminal`, `%terminal` and `%%save` (`register`).
 
-- `magics`, `saving_magic`: the three commands, with their options.
+- `magics`, `saving_magic`: the three commands, with their options; loaded when one is used.
 - `terminals/`: `shell` (a bash on a pseudo-terminal, and the thread that reads it), `terminal`
   (what a page does with one, and with all of a kernel), `output` (from characters to lines, and
   what is shown of them, in which colours), `environment`, and `reaper` (what ends all processes).
@@ -56,7 +56,6 @@ How it works, and why:
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -74,7 +73,6 @@ _HOMES = {
     "folder": ("rosbeat.workspace.location", "workspace"),
     "terminal": ("rosbeat.workspace.terminals", "terminal"),
 }
-_MAGICS = ("rosbeat.workspace.magics", "rosbeat.workspace.saving_magic")
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name
@@ -95,15 +93,18 @@ def register(shell: InteractiveShell) -> None:
     Args:
         shell: A running IPython shell.
     """
-    for name in _MAGICS:
-        import_module(name).register(shell)
+    from IPython.core.magic import no_var_expand
 
+    # `$HOME` is for bash, a path is a path, and IPython is not to put variables in their places.
+    @no_var_expand  # type: ignore[untyped-decorator]  # IPython carries no types
+    def terminal(line: str, cell: str | None = None) -> None:
+        """Type the cell into a terminal, or look at one; any wrong option shows the right ones."""
+        import_module("rosbeat.workspace.magics").run(shell, line, cell)
 
-def _running_shell() -> InteractiveShell | None:
-    """Return the shell of this process, without loading IPython where there is none."""
-    ipython = sys.modules.get("IPython")
-    return ipython.get_ipython() if ipython else None
+    @no_var_expand  # type: ignore[untyped-decorator]  # IPython carries no types
+    def save(line: str, cell: str) -> None:
+        """Save the cell as a file of the workspace; a module of a package runs here, too."""
+        import_module("rosbeat.workspace.saving_magic").save_cell(shell, line, cell)
 
-
-if (_shell := _running_shell()) is not None:
-    register(_shell)
+    shell.register_magic_function(terminal, "line_cell", "terminal")
+    shell.register_magic_function(save, "cell", "save")

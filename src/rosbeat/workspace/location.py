@@ -19,6 +19,7 @@ import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from rosbeat.environment import learners_folder
 from rosbeat.errors import called_as
@@ -74,10 +75,10 @@ def is_a_solution(page: Path) -> bool:
 def page_file() -> Path:
     """Return the file of the page that is open in this kernel; it need not exist.
 
-    Jupyter's server names it in the environment of its kernel. Without one, as in an editor, it is
-    a file in the kernel's folder.
+    Jupyter's server names it in the environment of its kernel, and Visual Studio Code in its
+    namespace. Without either, it is a file in the kernel's folder.
     """
-    file = Path(os.environ.get(PAGE) or "page.ipynb")
+    file = Path(_named_file() or "page.ipynb")
     with suppress(FileNotFoundError):  # the kernel's folder may be gone
         return file.absolute()
     return file
@@ -89,16 +90,24 @@ def page_number() -> str:
     Jupyter's server names the notebook in the environment of its kernel, and Visual Studio Code in
     its namespace. Elsewhere, as under nbgrader, it is the only page in the kernel's folder.
     """
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
-    named = os.environ.get(PAGE, "")
-    if not named and shell is not None:
+    named = _named_file()
+    if not named and _shell() is not None:
         pages = [one.name for one in Path().glob("[0-9][0-9]_*.ipynb")]
-        named = str(
-            shell.user_ns.get("__vsc_ipynb_file__") or (pages[0] if len(pages) == 1 else "")
-        )
+        named = pages[0] if len(pages) == 1 else ""
     found = _PAGE_NAME.search(named)
     return found[1] if found else ""
+
+
+def _shell() -> Any:  # noqa: ANN401 - IPython carries no types
+    ipython = sys.modules.get("IPython")
+    return ipython.get_ipython() if ipython else None
+
+
+def _named_file() -> str:
+    """Return the notebook that somebody has named to this kernel, or an empty text."""
+    shell = _shell()
+    known = {} if shell is None else shell.user_ns
+    return os.environ.get(PAGE) or str(known.get("__vsc_ipynb_file__") or "")
 
 
 @called_as("workspace.folder()")

@@ -8,7 +8,6 @@ import shlex
 from typing import TYPE_CHECKING, NoReturn
 
 from IPython.core.error import UsageError
-from IPython.core.magic import no_var_expand
 
 from rosbeat.workspace.terminals.terminal import Terminals, terminals_of
 
@@ -27,21 +26,6 @@ _USAGE = """\
     ends the terminal
 %terminal
     lists the terminals"""
-
-
-def register(shell: InteractiveShell) -> None:
-    """Make `%%terminal` and `%terminal` known to a shell; a second call changes nothing.
-
-    Args:
-        shell: The IPython shell of a page.
-    """
-
-    def magic(line: str, cell: str | None = None) -> None:
-        """Type the cell into a terminal, or look at one; any wrong option shows the right ones."""
-        run(shell, line, cell)
-
-    # `$HOME` is for bash, and IPython is not to put a variable of the page in its place.
-    shell.register_magic_function(no_var_expand(magic), "line_cell", "terminal")
 
 
 def run(shell: InteractiveShell, line: str, cell: str | None) -> None:

@@ -14,10 +14,9 @@ from pathlib import Path, PurePosixPath
 from types import CodeType, TracebackType
 from typing import TYPE_CHECKING, Any
 
-from IPython.core.magic import no_var_expand
-
 from rosbeat.diagnosis.packages import nearest, parse
 from rosbeat.errors import WorkspaceError
+from rosbeat.page_names import names_relied_on, without_names
 from rosbeat.workspace.location import workspace
 from rosbeat.workspace.prerequisites import PACKAGE, catch_up
 from rosbeat.workspace.saving import locate, save
@@ -33,20 +32,6 @@ _PAGE_AFTER_PACKAGE = "03"
 _BESIDE = ("setup.py", "conftest.py")
 _BLANK = re.compile(r"(?<!\w)_{4,}(?!\w)")
 _ABSENT = object()
-
-
-def register(shell: InteractiveShell) -> None:
-    """Make `%%save` known to a shell.
-
-    Args:
-        shell: A running IPython shell.
-    """
-
-    @no_var_expand  # type: ignore[untyped-decorator]  # a path is a path, whatever $ and {} mean elsewhere
-    def cell_magic(line: str, cell: str) -> None:
-        save_cell(shell, line, cell)
-
-    shell.register_magic_function(cell_magic, magic_kind="cell", magic_name="save")
 
 
 def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
@@ -75,13 +60,17 @@ def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
     if relative.suffix == ".py":
         refuse_magics(cell, shell.transform_cell)
     _make_room(relative, root)
-    names = " ".join(wanted).replace(",", " ").split()
-    text = with_definitions(cell, names, shell.user_ns.get("In", ())) if wanted else cell
+    copied = " ".join(wanted).replace(",", " ").split()
+    text = with_definitions(cell, copied, shell.user_ns.get("In", ())) if wanted else cell
     blank = blank_line(text)
     if blank:
         print(f"not saved: there is still a blank in line {blank} of {relative.name}")
     else:
         print(save(str(relative), text, root))
+    relied_on = names_relied_on(shell, text) if relative.suffix == ".py" and not blank else []
+    if relied_on:
+        names = ", ".join(relied_on)
+        print(f"# {relative.name} has no import for {names}: only cells of a page need none.")
     name = module_name(relative, root)
     if name:
         run_as_module(shell, cell, name, target, f"%%save {line}")
@@ -321,7 +310,7 @@ def run_as_module(
         code = _compiled(shell, source)
     except SyntaxError as error:
         raise _shown(shell, error) from None
-    with _as_module(shell, name, path):
+    with _as_module(shell, name, path), without_names(shell):
         try:
             exec(code, shell.user_ns)
         except BaseException as error:

@@ -72,6 +72,8 @@ BROKEN = {
         PREDICTION.replace("predict=true", 'predict=true exercise="00a"'),
         PREDICTION.replace("predict=true", 'predict=true check="00a"'),
     ],
+    "needless-import": ["# %%\nimport random\n\nfrom rosbeat import Session, check",
+                        "# %%\ndef f():\n    from rosbeat import viz as v"],
     "broken-link": [
         "# %% [markdown]\n# [next](01_nothing.ipynb)",
         "# %% [markdown]\n# [up](#no-such-heading)",
@@ -85,6 +87,8 @@ BROKEN = {
 }  # fmt: skip
 
 KEPT = [
+    "# %%\nfrom rosbeat.ros.test_nodes import add_greenhouse",
+    '# %% save="src/p/p/node.py"\nfrom rosbeat import Session',
     EXERCISE,
     EXERCISE + '# %% [markdown] only="solution"\n# It is `self.timer = self.create_timer(1.0, '
     "self.publish_temperature)`.",

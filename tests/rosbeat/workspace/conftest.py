@@ -6,7 +6,7 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from rosbeat.workspace import saving_magic
+from rosbeat import workspace
 from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished
 from rosbeat.workspace.terminals import Terminals
 
@@ -70,7 +70,7 @@ def shell(root, monkeypatch):
     settings.InteractiveShell.xmode = "Context"
     # The only one of the process: tracebacks ask for it to know the numbers of cells.
     shell = InteractiveShell.instance(config=settings)
-    saving_magic.register(shell)
+    workspace.register(shell)
     yield shell
     InteractiveShell.clear_instance()
     shell.restore_sys_module_state()
