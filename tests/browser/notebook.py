@@ -153,6 +153,14 @@ class Notebook:
         )
         self._wait_for_idle()
 
+    def start_kernel(self):
+        """Start a kernel for a page that has none, and wait until it answers."""
+        self.page.evaluate(
+            "() => window.jupyterapp.shell.currentWidget.sessionContext"
+            ".changeKernel({ name: 'python3' })"
+        )
+        self._wait_for_idle()
+
     def save(self):
         """Save, and wait until it is saved."""
         self._do("docmanager:save")

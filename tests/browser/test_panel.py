@@ -233,7 +233,9 @@ def test_a_busy_kernel_is_not_taken_for_one_that_is_gone(notebook, page):
 def test_a_kernel_that_was_restarted_is_noticed_and_nothing_can_be_clicked(notebook, page):
     more_frames(page)
     notebook.restart()
-    page.locator(LOST, has_text="No news from the kernel: run this cell again.").wait_for()
+    page.locator(
+        LOST, has_text="Run All Above Selected Cell in the menu, then run this cell again."
+    ).wait_for()
     enabled = f"{PANEL} .rb-side :is(button, input, select):enabled"
     page.wait_for_function(f"() => !document.querySelector('{enabled}')")
     notebook.run(0)
@@ -259,7 +261,7 @@ def test_a_page_without_its_kernel_has_the_picture_and_says_how_to_go_on(
         (lab.root / name).write_text(text.replace("status", "state"), encoding="utf-8")
     again = Notebook(page, lab, name)
     still = page.locator(STILL)
-    still.get_by_text("Run the cell above it for the live one.").wait_for()
+    still.get_by_text("For the live one, run this cell again").wait_for()
     assert "/temperature" in still.locator("img").get_attribute("alt")
     page.get_by_text("Error displaying widget").wait_for(state="hidden")
     again.shut_down()

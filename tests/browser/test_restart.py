@@ -51,3 +51,59 @@ def test_a_name_of_a_cell_above_leads_to_that_cell(page_of, page):
     notebook.run(0)
     notebook.run(1)
     notebook.says(1, "thermometer")
+
+
+SENSOR = """
+from rclpy.node import Node
+class WeatherReader(Node):
+    def __init__(self):
+        super().__init__("weather_reader")
+"""
+#: Each kind of cell that offers something, what it offers, and what is there when that is gone.
+OFFERS = {
+    "check": (SENSOR + 'check("00a", WeatherReader)', "Hint", "The buttons of this check went"),
+    "quiz": ('quiz("03")', "Half a second later", "The choices went with the kernel."),
+    "prediction": ('predict("____", 40)', "Compare", "The field for your prediction went"),
+}
+
+
+@pytest.mark.parametrize("way", ["restart", "shut down", "open again"])
+@pytest.mark.parametrize("kind", OFFERS)
+def test_what_went_with_the_kernel_says_so_and_comes_back(page_of, page, lab, kind, way):
+    cell, offered, gone = OFFERS[kind]
+    notebook = page_of(("code", cell))
+    notebook.run(0)
+    button = page.get_by_role("button", name=offered)
+    button.first.wait_for()
+    words = page.get_by_text(gone)
+    page.wait_for_timeout(3500)  # what is tested is that it stays away
+    expect(words).to_be_hidden()
+    if way == "restart":
+        notebook.restart()
+    elif way == "shut down":
+        page.evaluate("() => window.jupyterapp.commands.execute('kernelmenu:shutdown')")
+    else:
+        notebook.save()
+        notebook.shut_down()
+        notebook = Notebook(page, lab, notebook.name)
+    expect(words).to_be_visible()
+    expect(button.first).to_be_hidden()
+    page.get_by_text("Error displaying widget").wait_for(state="hidden")
+    if way == "shut down":
+        notebook.start_kernel()
+    notebook.run(0)
+    button.first.wait_for()
+    expect(words).to_be_hidden()
+    assert notebook.errors() == {}
+
+
+def test_where_everything_is_done_nothing_is_to_be_run_again(page_of, page, lab):
+    notebook = page_of(("code", OFFERS["prediction"][0]))
+    notebook.run(0)
+    page.get_by_role("button", name="Show me").click()
+    notebook.says(0, "It was 40.")
+    notebook.save()
+    notebook.shut_down()
+    again = Notebook(page, lab, notebook.name)
+    again.says(0, "It was 40.")
+    assert page.get_by_text(OFFERS["prediction"][2]).count() == 0

@@ -18,7 +18,7 @@ from typing import Any
 
 from anywidget import AnyWidget
 from IPython import get_ipython
-from IPython.display import display
+from IPython.display import display, update_display
 from traitlets import Bool, Int, List, Unicode
 
 from rosbeat.errors import RosbeatError
@@ -26,6 +26,22 @@ from rosbeat.exercises.cells import cells_of
 from rosbeat.exercises.outcome_display import OPEN, framed, words
 
 _HERE = Path(__file__).parent
+#: What stands in the place of each kind of widget when its kernel is gone.
+_GONE = {
+    "check": "The buttons of this check went with the kernel. Run this cell again to get them.",
+    "predict": "The field for your prediction went with the kernel. Run this cell again to predict.",
+    "quiz": "The choices went with the kernel. Run this cell again to choose.",
+}
+#: JupyterLab shows an output whose widget is gone as an error or not at all, and one whose kernel
+#: has started anew as if nothing had happened. So these words are an output of their own: hidden
+#: while the widget below lives, also for the moment in which it loads, and hiding that error.
+_ONE_OF_THEM = """<style>
+.rosbeat-gone { animation: rosbeat-gone 3s; margin: 0; }
+@keyframes rosbeat-gone { from, 99% { visibility: hidden; height: 0; } }
+.jp-OutputArea-child:has(.rosbeat-gone):has(+ * .rosbeat-exercise:not(.rb-orphan)) { display: none; }
+.jp-OutputArea-child:has(.rosbeat-gone) + *:not(:has(.rosbeat-exercise)) { display: none; }
+</style>
+"""
 #: What a click leads to: it gets what the browser sent, and returns HTML to show below the buttons.
 Action = Callable[[Mapping[str, Any]], str]
 
@@ -70,12 +86,24 @@ class ExerciseWidget(AnyWidget):
             layout.close()
 
     def show(self) -> None:
-        """Display the widget until its cell runs again; in files there is nothing in its place."""
+        """Display the widget until its cell runs again, and what is said when its kernel is gone.
+
+        Where everything is done, there is nothing to get back, and nothing is said.
+        """
         if (cells := cells_of()) is not None:
             cells.hold(self)
+        display_id = f"rosbeat-gone-{self.model_id}"
+        display(self._gone(), raw=True, display_id=display_id)
+        self.observe(
+            lambda _: update_display(self._gone(), raw=True, display_id=display_id), "passed"
+        )
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
         mime = "application/vnd.jupyter.widget-view+json"
         display({mime: view, "text/plain": ""}, raw=True)
+
+    def _gone(self) -> dict[str, str]:
+        said = f'{_ONE_OF_THEM}<p class="rosbeat-gone">{words(_GONE[self.kind])}</p>'
+        return {"text/html": "" if self.passed else said, "text/plain": ""}
 
     def _hear(self, content: Mapping[str, Any]) -> None:
         action = self._actions.get(str(content.get("do")))

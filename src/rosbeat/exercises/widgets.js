@@ -7,7 +7,8 @@
 const PATIENCE = 5000; // milliseconds after which the page says that the kernel has not answered
 const SILENCE =
   "The kernel has not answered yet. It answers when the cell that runs has ended; " +
-  "if the kernel was restarted, run this cell again.";
+  "if the kernel was shut down, run this cell again.";
+const ENDS = ["terminating", "restarting", "autorestarting", "dead"]; // of a kernel, in its status
 
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
@@ -110,6 +111,19 @@ function quiz(model, ask) {
   return { rows, update };
 }
 
+/** Mark what is on the page as gone when its kernel ends; return what stops the watching. */
+function watch(model, whole) {
+  const kernel = model.widget_manager?.kernel; // other front ends may have no such thing
+  const end = () => whole.classList.add("rb-orphan");
+  const hear = (_, status) => ENDS.includes(status) && end();
+  kernel?.disposed?.connect(end);
+  kernel?.statusChanged?.connect(hear);
+  return () => {
+    kernel?.disposed?.disconnect(end);
+    kernel?.statusChanged?.disconnect(hear);
+  };
+}
+
 function render({ model, el }) {
   const kind = model.get("kind");
   const status = make("div", { role: "status", tabindex: -1 });
@@ -154,9 +168,11 @@ function render({ model, el }) {
   whole.append(...shown.rows, status);
   el.append(whole);
   hear();
+  const unwatch = watch(model, whole);
   model.on("change:begun", begin);
   model.on("change:done", hear);
   return () => {
+    unwatch();
     clearTimeout(timer);
     model.off("change:begun", begin);
     model.off("change:done", hear);

@@ -12,7 +12,9 @@ const PULSE = 400; // milliseconds from one end of an arrow to the other
 const PULSE_GAP = 90; // milliseconds between two pulses on one arrow
 const WATCH_EVERY = 400; // milliseconds from one look for news to the next
 const MOST_QUIET = 6; // looks without news: the kernel sends something at least once a second
-const LOST = "No news from the kernel: run this cell again.";
+const LOST =
+  "No news from the kernel. If it has started anew, choose Run, Run All Above Selected Cell in the " +
+  "menu, then run this cell again.";
 // Drawn here, since fonts show some of these signs as coloured emoji.
 const ICONS = {
   running: "M4 2.5L13 8L4 13.5z",

@@ -34,7 +34,10 @@ RETRY, RETRY_FOR, RARE_RETRY = 1.0, 600.0, 30.0
 #: While pages are built and tested, outputs must be the same each time; a panel's own never are.
 _STEADY = "ROSBEAT_STEADY_HOME"
 _HEADING = "The instrument panel of this session."
-_HOW = "This is a still picture of the panel. Run the cell above it for the live one."
+_HOW = (
+    "This is a still picture of the panel. For the live one, run this cell again; in a kernel that "
+    "has started anew, choose Run, Run All Above Selected Cell in the menu first."
+)
 #: JupyterLab shows an output whose widget is gone as an error, and looks at no other form of it. So
 #: the picture is an output of its own: hidden while the panel below it lives, and hiding the error
 #: when it does not.

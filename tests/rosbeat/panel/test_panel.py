@@ -140,7 +140,7 @@ def test_at_the_end_of_a_cell_it_shows_a_picture_and_a_view_below(panel, in_a_br
         "The instrument panel of this session. 2 nodes and 1 topic."
     )
     assert "<figure" in picture["text/html"]
-    assert "Run the cell above it for the live one." in picture["text/html"]
+    assert "For the live one, run this cell again" in picture["text/html"]
     assert "no nodes yet" in still(GraphSnapshot())["text/plain"]
 
 
