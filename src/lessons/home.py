@@ -12,11 +12,13 @@
 # what you write. Take the core pages in order. After the last one, your package is finished, and you can choose
 # among the electives.
 #
-# The cell below shows the whole course, and how far you are. Click it and press `Shift` + `Enter`. After that, the
-# list stays up to date while you work on the pages.
-#
-# In a class, you can let your instructor see which exercises the class is stuck on. Checks share nothing until you
-# turn that on; `rosbeat share`, typed in a terminal, explains what it means.
+# The list below shows the whole course, and how far you are. It stays up to date while you work on the pages.
 
 # %%
 progress()
+
+# %% [markdown]
+# If the list is out of date, click its cell and press `Shift` + `Enter`.
+#
+# In a class, you can let your instructor see which exercises the class is stuck on. Checks share nothing until you
+# turn that on; `rosbeat share`, typed in a terminal, explains what it means.

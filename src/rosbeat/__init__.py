@@ -80,6 +80,8 @@ def load_ipython_extension(shell: Any) -> None:  # noqa: ANN401 - IPython carrie
     import_module("rosbeat.page_names").register(shell, __all__, __getattr__)
     for part in ("page_errors", "exercises.cells", "record_display", "workspace"):
         import_module(f"rosbeat.{part}").register(shell)
+    offer = import_module("rosbeat.exercises.progress_widget").offer
+    offer(shell, lambda: __getattr__("progress")())
 
 
 # Without loading IPython where there is none.

@@ -65,6 +65,7 @@ def _environment(folder, domain_id):
     own = {
         "JUPYTER_RUNTIME_DIR": str(folder / "run"),
         "JUPYTER_CONFIG_DIR": str(folder / "config"),
+        "JUPYTER_DATA_DIR": str(folder / "data"),
         "JUPYTER_PREFER_ENV_PATH": "1",
         "IPYTHONDIR": str(folder / "ipython"),
         "ROS_DOMAIN_ID": str(domain_id),

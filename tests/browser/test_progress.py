@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 from browser.accessibility import cut_off, issues
 from browser.notebook import SHOWN, Notebook, write_notebook
@@ -15,8 +16,8 @@ from rosbeat.exercises.exercise import failed, passed
 from rosbeat.exercises.progress import ProgressFile
 
 ROOT = Path(__file__).parents[2]
-LIST = ".rosbeat-progress"
-SHOW = "from rosbeat import check, progress\nprogress()"
+LIST = f"{SHOWN} .rosbeat-progress-live .rosbeat-progress"
+SHOW = "progress()"
 
 
 @pytest.fixture
@@ -68,6 +69,45 @@ def test_the_home_page_keeps_up_with_checks_on_other_pages(opened, page, progres
     assert home.errors() == {}
 
 
+@pytest.mark.parametrize(("name", "cell"), [("home", 0), ("00_hear_the_heartbeat", -1)])
+def test_a_page_that_was_not_run_shows_the_list_and_keeps_it_up(
+    opened, page, lab, progress, name, cell
+):
+    refresh(lab)
+    pass_one(progress, "00a")
+    notebook = opened(f"{name}.ipynb")
+    page.locator(f"{SHOWN} .jp-CodeCell").nth(cell).scroll_into_view_if_needed()
+    mark(page, "✓ 00a").wait_for()
+    expect(page.get_by_text("when this list was stored")).to_be_hidden()
+    pass_one(progress, "00b")
+    mark(page, "✓ 00b").wait_for()
+    notebook.restart()
+    page.get_by_text("Run this cell to bring the list up to date.").wait_for()
+    pass_one(progress, "01a")
+    notebook.run(page.locator(f"{SHOWN} .jp-CodeCell").count() - 1)
+    mark(page, "✓ 00b").wait_for()
+    expect(page.get_by_text("Run this cell to bring the list up to date.")).to_be_hidden()
+
+
+def test_without_a_kernel_the_stored_list_says_what_it_is(opened, page, lab, progress):
+    pass_one(progress, "00a")
+    refresh(lab)
+    text = (lab.root / "home.ipynb").read_text(encoding="utf-8")
+    (lab.root / "of_somebody_else.ipynb").write_text(text.replace("Welcome!", "Hello!"))
+    opened("of_somebody_else.ipynb")
+    page.get_by_text("when this list was stored").wait_for()
+    page.locator(".rosbeat-progress-stored span", has_text="✓ 00a").wait_for()
+
+
+def test_the_home_page_ends_with_a_text_so_that_running_its_list_adds_no_cell(opened, page):
+    home = opened("home.ipynb")
+    before = page.locator(f"{SHOWN} .jp-Cell").count()
+    home.cell(0).locator(".cm-content").click()
+    page.keyboard.press("Shift+Enter")
+    mark(page, "○ 00a").wait_for()
+    assert page.locator(f"{SHOWN} .jp-Cell").count() == before
+
+
 def test_it_keeps_up_while_the_kernel_is_busy(opened, page, lab, progress):
     write_notebook(lab.root / "busy.ipynb", SHOW, "import time; time.sleep(120)")
     notebook = opened("busy.ipynb")
@@ -98,7 +138,11 @@ def test_a_link_opens_its_page_here(opened, page, lab, progress, is_run):
 
 def refresh(lab):
     """Bring the home page up to date as `course lab` does before it opens."""
-    environment = {**os.environ, "ROSBEAT_PROGRESS_IN": str(lab.root.parent)}
+    environment = {
+        **os.environ,
+        "ROSBEAT_PROGRESS_IN": str(lab.root.parent),
+        "JUPYTER_DATA_DIR": str(lab.root.parent / "data"),
+    }
     command = [sys.executable, "-m", "rosbeat", "progress", "--home", str(lab.root / "home.ipynb")]
     subprocess.run(command, env=environment, check=True)
 
@@ -125,7 +169,7 @@ def test_lists_and_cards_can_be_read_by_everybody(opened, page, lab, progress, t
         notebook = opened(name)
         notebook.theme(theme)
         notebook.run_all()
-        shown = page.locator(f"{SHOWN} .jp-OutputArea-output")
+        shown = page.locator(f"{SHOWN} .jp-OutputArea-output:visible")
         shown.first.wait_for()
         for output in shown.all():
             assert issues(output) == []

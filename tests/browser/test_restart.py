@@ -63,7 +63,7 @@ class WeatherReader(Node):
 OFFERS = {
     "check": (SENSOR + 'check("00a", WeatherReader)', "Hint", "The buttons of this check went"),
     "quiz": ('quiz("03")', "Half a second later", "The choices went with the kernel."),
-    "prediction": ('predict("____", 40)', "Compare", "The field for your prediction went"),
+    "prediction": ('predict("____", 40)', "Compare", "The field to predict went"),
 }
 
 

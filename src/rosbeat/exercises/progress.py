@@ -18,6 +18,7 @@ from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.outcome_display import LOOKS
 from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page
+from rosbeat.exercises.progress_widget import stored
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
@@ -254,24 +255,41 @@ def rows() -> list[Row]:
 def refresh_home(page: Path) -> None:
     """Store in the course's home page how far this learner is now, so that it opens up to date.
 
+    So does every page beside it that nobody has run yet, at its foot. JupyterLab keeps these lists
+    up to date (`progress_widget`), since pages in which nothing else has an output are signed.
+
     Args:
         page: The notebook. It is written only if something changes; one that is not there, or is
             no notebook, is left alone.
 
     Raises:
-        OSError: The notebook cannot be written.
+        OSError: A notebook cannot be written.
     """
+    numbered = {one.number: one for one in PAGES if one.number}
+    for path in (page, *sorted(page.parent.glob("[0-9][0-9]_*.ipynb"))):
+        _store_list(path, None if path == page else numbered.get(path.name[:2]))
+
+
+def _store_list(path: Path, here: Page | None) -> None:
+    """Store the list in the only cell of a page that shows it, unless others have outputs."""
+    import nbformat  # which takes a while to load
+    from nbformat.sign import NotebookNotary
+
     try:
-        notebook = json.loads(page.read_bytes())
+        notebook = json.loads(path.read_bytes())
         cells = [one for one in notebook["cells"] if one["cell_type"] == "code"]
-        (cell,) = [one for one in cells if "progress()" in "".join(one["source"])]
+        (cell,) = [one for one in cells if "".join(one["source"]).strip() == "progress()"]
+        if any(one.get("outputs") for one in cells if one is not cell):
+            return
     except (OSError, ValueError, KeyError, TypeError):
         return
-    data = ProgressList(rows, None, page.absolute().parent).bundle()
-    outputs = [{"data": data, "metadata": {}, "output_type": "display_data"}]
+    data = stored(ProgressList(rows, here, path.absolute().parent))
+    outputs = [{"data": one, "metadata": {}, "output_type": "display_data"} for one in data]
     if cell.get("outputs") != outputs:
         cell.update(outputs=outputs, execution_count=None)
-        write(page, f"{json.dumps(notebook, indent=1, ensure_ascii=False)}\n".encode())
+        write(path, f"{json.dumps(notebook, indent=1, ensure_ascii=False)}\n".encode())
+        # The pages are the course's own, and so is their only output.
+        NotebookNotary().sign(nbformat.from_dict(notebook))
 
 
 def outcomes(page: Page, standings: Standings) -> list[Outcome]:

@@ -1,4 +1,4 @@
-"""Show how far somebody is, as a list with links that keeps itself up to date.
+"""Show how far somebody is, as a list with links; `progress_widget` keeps it up to date.
 
 On a page the list has the page's exercises, and the course as two lines; elsewhere, as in
 `home.ipynb`, it has every page of the course. JupyterLab opens relative links of an output as it
@@ -10,12 +10,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
 from html import escape
 from pathlib import Path
-from threading import Event, Lock, Thread
 
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.outcome_display import LOOKS, RIGHT
@@ -23,10 +20,6 @@ from rosbeat.exercises.registry import EXERCISES, Page
 from rosbeat.records import Outcome
 from rosbeat.viz.text_format import count, listing, sentence_case
 from rosbeat.workspace.location import steady_home
-
-#: Seconds from one look at the file to the next, while a list is shown.
-PERIOD = 1.0
-_DISPLAY_ID = "rosbeat-progress"
 
 _LEFT = "text-align: left; vertical-align: top; white-space: normal"
 _PLAIN = "list-style-type: none; padding: 0px; margin: 0px 0px 8px 0px"
@@ -97,10 +90,15 @@ class ProgressList:
     def _ipython_display_(self) -> None:
         from IPython.display import display
 
-        if is_a_page():
-            _updater().show(self)
-        else:
+        if not is_a_page():
             display(self.bundle(), raw=True)
+            return
+        # The widgets take a while to load, and only a notebook in a browser shows them.
+        from rosbeat.exercises.progress_widget import live, stored
+
+        live(lambda: self).show(self)
+        for bundle in stored(self):
+            display(bundle, raw=True)
 
 
 def is_a_page() -> bool:
@@ -108,48 +106,6 @@ def is_a_page() -> bool:
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     return hasattr(shell, "kernel") and steady_home() is None
-
-
-class _Updater:
-    """Keep every list of this kernel up to date: one thread, and one display id for all of them.
-
-    Checks of other pages run in other kernels, so what is watched is the file.
-    """
-
-    def __init__(self) -> None:
-        self._lock = Lock()
-        self._never = Event()
-        self._thread: Thread | None = None
-
-    def show(self, shown: ProgressList) -> None:
-        """Display a list, which takes the place of those displayed before."""
-        from IPython.display import display
-
-        with self._lock:
-            self._shown, self._bundle = shown, shown.bundle()
-            display(self._bundle, raw=True, display_id=_DISPLAY_ID)
-            if self._thread is None or not self._thread.is_alive():
-                self._thread = Thread(target=self._run, name="rosbeat progress", daemon=True)
-                self._thread.start()
-
-    def _run(self) -> None:
-        while not self._never.wait(PERIOD):  # not `time.sleep`, which a session replaces
-            with suppress(OSError):  # the folder may be gone for a while
-                self._look()
-
-    def _look(self) -> None:
-        from IPython.display import update_display
-
-        with self._lock:
-            bundle = self._shown.bundle()
-            if bundle != self._bundle:
-                self._bundle = bundle
-                update_display(bundle, raw=True, display_id=_DISPLAY_ID)
-
-
-@cache
-def _updater() -> _Updater:
-    return _Updater()
 
 
 # In words.

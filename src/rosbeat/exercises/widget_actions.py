@@ -29,7 +29,7 @@ _HERE = Path(__file__).parent
 #: What stands in the place of each kind of widget when its kernel is gone.
 _GONE = {
     "check": "The buttons of this check went with the kernel. Run this cell again to get them.",
-    "predict": "The field for your prediction went with the kernel. Run this cell again to predict.",
+    "predict": "The field to predict went with the kernel. Run this cell again to get it.",
     "quiz": "The choices went with the kernel. Run this cell again to choose.",
 }
 #: JupyterLab shows an output whose widget is gone as an error or not at all, and one whose kernel
@@ -38,7 +38,7 @@ _GONE = {
 _ONE_OF_THEM = """<style>
 .rosbeat-gone { animation: rosbeat-gone 3s; margin: 0; }
 @keyframes rosbeat-gone { from, 99% { visibility: hidden; height: 0; } }
-.jp-OutputArea-child:has(.rosbeat-gone):has(+ * .rosbeat-exercise:not(.rb-orphan)) { display: none; }
+.jp-OutputArea-child:has(.rosbeat-gone):has(+ * .rosbeat-exercise:not(.rb-orphan)),
 .jp-OutputArea-child:has(.rosbeat-gone) + *:not(:has(.rosbeat-exercise)) { display: none; }
 </style>
 """

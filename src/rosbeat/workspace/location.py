@@ -106,7 +106,7 @@ def _shell() -> Any:  # noqa: ANN401 - IPython carries no types
 def _named_file() -> str:
     """Return the notebook that somebody has named to this kernel, or an empty text."""
     shell = _shell()
-    known = {} if shell is None else shell.user_ns
+    known = getattr(shell, "user_ns", {})
     return os.environ.get(PAGE) or str(known.get("__vsc_ipynb_file__") or "")
 
 

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 import IPython
 import nbformat
 import pytest
+from nbformat.sign import NotebookNotary
 
 from notebooks.kernel import WatchedKernel
 from parsed_html import Shown
@@ -295,12 +296,14 @@ def test_a_list_changes_when_a_check_passes_in_another_kernel(tmp_path, monkeypa
             kernel.await_reply(kernel.execute_cell_input(cell), 60)
         first = message(kernel, "display_data")
         assert "Still open: all." in first["data"]["text/plain"]
-        assert "text/html" in first["data"]
+        assert "when this list was stored" in first["data"]["text/html"]
+        view = message(kernel, "display_data")["data"]["application/vnd.jupyter.widget-view+json"]
+        assert view["model_id"] == "rosbeat-progress"
         right = replace(passed(""), points=1)
         ProgressFile(tmp_path / ".rosbeat").change("00a", lambda before: before.after(right))
-        second = message(kernel, "update_display_data")
-        assert "Passed: 00a." in second["data"]["text/plain"]
-        assert second["transient"] == first["transient"]
+        second = message(kernel, "comm_msg")
+        assert second["comm_id"] == view["model_id"]
+        assert "✓ 00a" in second["data"]["state"]["html"]
     finally:
         kernel.stop()
 
@@ -364,7 +367,8 @@ HOME = Path(__file__).parents[3] / "notebooks" / "home.ipynb"
 
 
 @pytest.fixture
-def own_home(two_checked, tmp_path):
+def own_home(two_checked, tmp_path, monkeypatch):
+    monkeypatch.setenv("JUPYTER_DATA_DIR", str(tmp_path / "data"))  # which pages are signed
     shutil.copy(HOME, tmp_path)
     return tmp_path / HOME.name
 
@@ -377,7 +381,8 @@ def stored(page):
 def test_the_home_page_is_brought_up_to_date_and_changed_nowhere_else(own_home, capsys):
     assert stored(own_home) == []
     assert cli.main(["progress", "--home", str(own_home)]) == 0
-    (data,) = stored(own_home)
+    data, view = stored(own_home)
+    assert view["application/vnd.jupyter.widget-view+json"]["model_id"] == "rosbeat-progress"
     assert "Passed: 00a. Not there yet: 00b." in data["text/plain"]
     assert "✓ 00a" in data["text/html"]
     page = nbformat.read(own_home, as_version=4)
@@ -396,6 +401,21 @@ def test_what_is_no_home_page_is_left_alone(two_checked, tmp_path, content):
         page.write_bytes(content)
     assert cli.main(["progress", "--home", str(page)]) == 0
     assert (page.read_bytes() if page.exists() else None) == content
+
+
+def test_a_page_that_nobody_has_run_has_the_list_and_any_other_stays(own_home):
+    new, old = (own_home.parent / f"{one}_page.ipynb" for one in ("00", "01"))
+    cells = [nbformat.v4.new_code_cell("1 + 1"), nbformat.v4.new_code_cell("progress()")]
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), new)
+    cells[0].outputs = [nbformat.v4.new_output("stream", text="2")]
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), old)
+    before = old.read_bytes()
+    assert cli.main(["progress", "--home", str(own_home)]) == 0
+    assert "✓ 00a" in stored(new)[0]["text/html"]
+    assert "exercise 00b on this page" in stored(new)[0]["text/html"]
+    assert old.read_bytes() == before
+    assert NotebookNotary().check_signature(nbformat.read(new, as_version=4))
+    assert not NotebookNotary().check_signature(nbformat.read(old, as_version=4))
 
 
 # Which runs count.
