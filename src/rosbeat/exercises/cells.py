@@ -30,6 +30,8 @@ NOTHING: Answer = object()
 _LONGEST, _MOST_READ = 200, 10_000
 _HELD_AS = "_rosbeat_cells"
 _SAVE = re.compile(r"%%save\s+(\S+)")
+#: The guess of a prediction, of which nothing else in its cell depends.
+_GUESS = re.compile(r"""(?<![\w.])predict\(\s*("[^"\n]*"|'[^'\n]*'|[^,\n]*)""")
 #: A prediction that nobody has made yet.
 _ASKS = re.compile(r"""(?<![\w.])predict\(\s*["']_+["']""")
 _BLANK = re.compile(r"(?<!\w)_{4}(?!\w)")
@@ -59,6 +61,21 @@ class Run:
     stamp: int = 0
 
 
+@dataclass(frozen=True)
+class Beginning:
+    """Hold what came out when a prediction's cell ran for the first time.
+
+    Attributes:
+        source: The cell's text, without the guess.
+        above: The texts of the cells that had run before, by their ids.
+        happened: What was compared with the guesses, in order.
+    """
+
+    source: str
+    above: Mapping[str, str]
+    happened: list[Answer]
+
+
 class Cells:
     """Follow the cells that a kernel runs.
 
@@ -73,6 +90,10 @@ class Cells:
         self._last: dict[str, Run] = {}
         self._binder: dict[str, Run] = {}
         self._handed: dict[str, ast.expr] = {}
+        #: The text of each cell's last run, without guesses; of exercises, predictions know nothing.
+        self._texts: dict[str, str] = {}
+        self._beginnings: dict[str, Beginning] = {}
+        self._compared = 0
         self.worked_on = ""
         #: What the cell that runs keeps back until its prediction is made, if it does.
         self.withheld: Withheld | None = None
@@ -83,6 +104,7 @@ class Cells:
         """Note that a cell runs (IPython's event `pre_run_cell`)."""
         self._begun.append(str(info.raw_cell))
         if len(self._begun) == 1 and self.for_a_browser:
+            self._compared = 0
             self._close(str(self._sent()["cellId"]))
             if _ASKS.search(self._begun[0]):
                 self.withheld = Withheld(self._shell)
@@ -101,6 +123,8 @@ class Cells:
             self._close(str(gone))
         marks = meta.get("rosbeat") or {}
         cell, exercise = str(meta.get("cellId") or ""), str(marks.get("exercise") or "")
+        if cell and not exercise and "check" not in marks:
+            self._texts[cell] = _without_guess(str(result.info.raw_cell))
         run = self._ended(result, Run(cell, exercise))
         self._binder.update(dict.fromkeys(run.bound, run))
         if run.exercise:
@@ -123,6 +147,34 @@ class Cells:
         expression = answer_in(self._begun[0], exercise) if self._begun else None
         if expression is not None:
             self._handed[exercise] = expression
+
+    def first_outcome(self, happened: Answer) -> Answer:
+        """Return what came out when the cell that runs made this comparison for the first time.
+
+        A cell may change what it looks at, so that it has another outcome each time, and the page
+        goes on meanwhile. The first outcome stays until the learner begins anew: changes this cell,
+        more than its guess, or one that had run before it, and runs it again.
+
+        Args:
+            happened: What came out now.
+
+        Returns:
+            The first outcome; the present one where the front end does not tell cells apart.
+        """
+        if not self.for_a_browser:
+            return happened
+        cell, source = str(self._sent()["cellId"]), _without_guess(self._begun[0])
+        first = self._beginnings.get(cell)
+        if first is None or first.source != source or not self._is_above(first):
+            above = {key: text for key, text in self._texts.items() if key != cell}
+            first = self._beginnings[cell] = Beginning(source, above, [])
+        number, self._compared = self._compared, self._compared + 1
+        if number == len(first.happened):
+            first.happened.append(happened)
+        return first.happened[number]
+
+    def _is_above(self, first: Beginning) -> bool:
+        return all(self._texts.get(cell) == text for cell, text in first.above.items())
 
     def hold(self, widget: Any) -> None:  # noqa: ANN401 - ipywidgets takes a while to load
         """Hold a widget that the cell shows until it runs again, which takes it from the page.
@@ -297,6 +349,10 @@ def _arguments(call: ast.Call) -> list[ast.expr]:
     given = {one.arg: one.value for one in call.keywords}
     rest = [given[name] for name in ("exercise", "answer")[len(call.args) :] if name in given]
     return [*call.args, *rest] if named else []
+
+
+def _without_guess(source: str) -> str:
+    return _GUESS.sub("predict(", source)
 
 
 def _bound(source: str, error: BaseException | None, line: int) -> tuple[str, ...]:

@@ -263,9 +263,11 @@ def predict(
     Returns:
         Both, side by side, which Jupyter shows. It costs no points to be wrong.
     """
+    cells = cells_of()
+    if cells is not None:
+        happened = cells.first_outcome(happened)
     if is_blank(guess):
         unmade = f"No prediction yet. It was {in_words(happened)}."
-        cells = cells_of()
         if cells is None or cells.withheld is None or not cells.withheld.ask():
             return Prediction(OPEN, unmade)
         answer = partial(predict, happened=happened, tolerance=tolerance, because=because)

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.ros
 IMPORTS = """
 from rclpy.node import Node
 from std_msgs.msg import Float32
-from rosbeat import check, hint, workspace
+from rosbeat import check, hint, predict, workspace
 def told(*given):
     outcome = check(*given).outcome
     print(outcome.status, outcome.evidence)
@@ -250,3 +250,41 @@ def test_an_unknown_exercise_is_answered_with_those_of_the_page_that_was_worked_
     reply = page((SCRATCH, 'hint("03z")'))
     assert refused(reply)
     assert "The exercises on this page are: 03a (" in reply.trace
+
+
+# A prediction and its first outcome.
+
+COUNT = "count = 0\ndef step():\n    global count\n    count += 1\n    return count"
+ASKS = 'print(predict("____", step()))'
+GUESSES = "print(predict('{}', step()))"
+
+
+@pytest.mark.parametrize("between", [
+    (),
+    (("below", "count = 10"),),
+    (("prediction", ASKS),) * 3,
+    (("above", COUNT),),  # the same beginning again
+    ((EXERCISE, "____"), (EXERCISE, "a = 1"), (CHECK, "a")),
+])  # fmt: skip
+def test_the_first_outcome_of_a_prediction_stays(page, between):
+    asked = page(("above", COUNT), (EXERCISE, "a = 0"), ("other", ASKS), ("prediction", ASKS))
+    assert "It was 2." in asked.text
+    guess = GUESSES.format(2)
+    told = page(*between, ("other", GUESSES.format(7)), ("prediction", guess)).text
+    assert "✓ You predicted 2, and it was 2." in told
+    assert "✗ You predicted 3, and it was 2." in page(("prediction", GUESSES.format(3))).text
+
+
+@pytest.mark.parametrize(("cell", "text"), [
+    ("above", COUNT.replace("+= 1", "+= 5")),
+    ("prediction", "print(predict('____', step() + 4))"),
+])  # fmt: skip
+def test_a_learner_who_changes_the_cell_or_one_above_begins_anew(page, cell, text):
+    page(("above", COUNT), ("prediction", ASKS), (cell, text))
+    last = ASKS if cell == "above" else text
+    assert "It was 1." not in page(("prediction", last)).text
+
+
+def test_where_cells_have_no_ids_a_prediction_has_the_present_outcome(page):
+    page(("", COUNT), ("", ASKS))
+    assert "it was 2." in page(("", GUESSES.format(2))).text
