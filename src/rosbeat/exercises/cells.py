@@ -90,7 +90,7 @@ class Cells:
         self._last: dict[str, Run] = {}
         self._binder: dict[str, Run] = {}
         self._handed: dict[str, ast.expr] = {}
-        #: The text of each cell's last run, without guesses; of exercises, predictions know nothing.
+        #: The text of each cell's last run, without guesses and exercises.
         self._texts: dict[str, str] = {}
         self._beginnings: dict[str, Beginning] = {}
         self._compared = 0

@@ -11,9 +11,6 @@ from dataclasses import dataclass, replace
 from importlib.resources import files
 from string import ascii_lowercase
 from typing import Any
-from uuid import uuid4
-
-from IPython.display import display, update_display
 
 from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cells import cells_of
@@ -87,6 +84,9 @@ QUESTIONS = _read_questions()
 
 # What a learner calls.
 
+#: Stands before the choice that was made.
+_CHOSEN = "\N{RIGHTWARDS ARROW}"
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -112,14 +112,6 @@ class Asked:
             return OPEN
         return RIGHT if self.choice.right else WRONG
 
-    @property
-    def said(self) -> str:
-        """Return what is said to the choice that was made; an empty text for none."""
-        if self.choice is None:
-            return ""
-        word = "right" if self.choice.right else "not right"
-        return f"Question {self.question.id}: {word}. {self.choice.reason}"
-
 
 @dataclass(frozen=True)
 class Quiz:
@@ -144,15 +136,20 @@ class Quiz:
         return self.cards() + "".join(f"<div>{words(line)}</div>" for line in self._way() if line)
 
     def cards(self) -> str:
-        """Return the questions alone as HTML, for a page with buttons."""
+        """Return the questions alone as HTML."""
         return "".join(framed(one.sign, *_rows(one)) for one in self.asked)
+
+    @property
+    def is_right(self) -> bool:
+        """Return whether all answers are right."""
+        return all(one.sign == RIGHT for one in self.asked)
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"text/plain": str(self), "text/html": self.html()}
 
     def _way(self) -> Iterator[str]:
         """Generate how to answer, unless all answers are right."""
-        if all(one.sign == RIGHT for one in self.asked):
+        if self.is_right:
             return
         letters = ", ".join(
             f'"{ascii_lowercase[n if one.chosen is None else one.chosen]}"'
@@ -164,29 +161,27 @@ class Quiz:
 
 
 class QuizCard(Quiz):
-    """Show questions with buttons below them, in a notebook that is open in a browser."""
+    """Show questions whose choices can be clicked, in a notebook that is open in a browser."""
 
     def _ipython_display_(self) -> None:
         # The widgets take a while to load, and only a notebook in a browser shows them.
         from rosbeat.exercises.widget_actions import ExerciseWidget
 
-        asked, display_id = list(self.asked), f"rosbeat-quiz-{uuid4().hex}"
-
-        def bundle() -> dict[str, str]:
-            made = Quiz(self.page, tuple(asked))
-            return {"text/plain": str(made), "text/html": made.cards()}
+        asked = list(self.asked)
 
         def choose(content: Mapping[str, Any]) -> str:
             number = int(content["question"])
             asked[number] = replace(asked[number], chosen=int(content["choice"]))
-            update_display(bundle(), raw=True, display_id=display_id)
-            buttons.questions = [_view(one) for one in asked]
-            return words(asked[number].said)
+            made = Quiz(self.page, tuple(asked))
+            card.questions, card.passed = [_view(one) for one in asked], made.is_right
+            card.keep(made.cards(), str(made))
+            return ""  # the reason is below the choices
 
-        display(bundle(), raw=True, display_id=display_id)
         questions = [_view(one) for one in asked]
-        buttons = ExerciseWidget({"choose": choose}, "quiz", questions=questions)
-        buttons.show()
+        card = ExerciseWidget({"choose": choose}, "quiz", questions=questions)
+        card.passed = self.is_right
+        card.keep(self.cards(), str(self))
+        card.show()
 
 
 @called_as('quiz("03", "b", "a", "c")')
@@ -245,17 +240,22 @@ def _index(question: Question, answer: object) -> int | None:
 
 
 def _view(asked: Asked) -> dict[str, Any]:
-    """Return what the buttons of a question have to know."""
-    pairs = zip(ascii_lowercase, asked.question.choices, strict=False)
-    choices = [f"{letter}) {choice.text.replace('`', '')}" for letter, choice in pairs]
-    return {"id": asked.question.id, "choices": choices, "chosen": asked.chosen}
+    """Return what the browser shows of a question, as HTML."""
+    return {
+        "id": asked.question.id,
+        "sign": asked.sign,
+        "text": words(asked.question.text),
+        "choices": [words(f"{letter}) {choice.text}") for letter, choice in _lettered(asked)],
+        "chosen": asked.chosen,
+        "reason": words(asked.choice.reason) if asked.choice else "",
+    }
 
 
 def _lines(asked: Asked) -> Iterator[str]:
-    """Generate a question as lines of text: with all choices, or with the one that was made."""
+    """Generate a question as lines of text, with the choice that was made."""
     yield f"{asked.sign} Question {asked.question.id}: {asked.question.text}"
-    for letter, choice in _shown(asked):
-        yield f"  {letter}) {choice.text}"
+    for letter, choice in _lettered(asked):
+        yield f"{_CHOSEN if choice is asked.choice else ' '} {letter}) {choice.text}"
     if asked.choice:
         yield f"  {asked.choice.reason}"
 
@@ -263,12 +263,13 @@ def _lines(asked: Asked) -> Iterator[str]:
 def _rows(asked: Asked) -> Iterator[str]:
     """Generate the same as rows of HTML."""
     yield words(f"{asked.sign} Question {asked.question.id}: {asked.question.text}", "strong")
-    for letter, choice in _shown(asked):
-        yield words(f"{letter}) {choice.text}")
+    for letter, choice in _lettered(asked):
+        is_chosen = choice is asked.choice
+        mark = f"{_CHOSEN} " if is_chosen else ""
+        yield words(f"{mark}{letter}) {choice.text}", "strong" if is_chosen else "")
     if asked.choice:
         yield words(asked.choice.reason, "em")
 
 
-def _shown(asked: Asked) -> list[tuple[str, Choice]]:
-    every = list(zip(ascii_lowercase, asked.question.choices, strict=False))
-    return every if asked.chosen is None else [every[asked.chosen]]
+def _lettered(asked: Asked) -> Iterator[tuple[str, Choice]]:
+    return zip(ascii_lowercase, asked.question.choices, strict=False)

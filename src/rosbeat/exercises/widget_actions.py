@@ -64,8 +64,8 @@ class ExerciseWidget(AnyWidget):
     has_answer = Bool().tag(sync=True)
     #: How a prediction is written.
     form = Unicode().tag(sync=True)
-    #: Of each question of a quiz its `id`, the `choices`, and the index of the one that was
-    #: `chosen`, or None.
+    #: Of each question of a quiz its `id`, `sign`, `text` and `choices`, the index of the one that
+    #: was `chosen`, or None, and the `reason` why that is right or wrong; texts are HTML.
     questions: List[dict[str, Any]] = List().tag(sync=True)
     #: What was said last, as HTML: also for a page that is loaded anew while the kernel lives.
     said = Unicode().tag(sync=True)
@@ -76,6 +76,9 @@ class ExerciseWidget(AnyWidget):
     def __init__(self, actions: Mapping[str, Action], kind: str, **traits: object) -> None:
         super().__init__(kind=kind, **traits)
         self._actions = actions
+        self._stored = {"text/html": "", "text/plain": ""}
+        self._display_id = f"rosbeat-gone-{self.model_id}"
+        self._is_shown = False
         self.on_msg(lambda _widget, content, _buffers: self._hear(content))
 
     def close(self) -> None:
@@ -92,18 +95,32 @@ class ExerciseWidget(AnyWidget):
         """
         if (cells := cells_of()) is not None:
             cells.hold(self)
-        display_id = f"rosbeat-gone-{self.model_id}"
-        display(self._gone(), raw=True, display_id=display_id)
-        self.observe(
-            lambda _: update_display(self._gone(), raw=True, display_id=display_id), "passed"
-        )
+        display(self._gone(), raw=True, display_id=self._display_id)
+        self._is_shown = True
+        self.observe(lambda _: self._update(), "passed")
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
         mime = "application/vnd.jupyter.widget-view+json"
         display({mime: view, "text/plain": ""}, raw=True)
 
+    def keep(self, html: str, plain: str) -> None:
+        """Keep what is to be read where the widget is not.
+
+        Args:
+            html: The same as HTML.
+            plain: The same as text.
+        """
+        self._stored = {"text/html": html, "text/plain": plain}
+        self._update()
+
+    def _update(self) -> None:
+        if self._is_shown:
+            update_display(self._gone(), raw=True, display_id=self._display_id)
+
     def _gone(self) -> dict[str, str]:
-        said = f'{_ONE_OF_THEM}<p class="rosbeat-gone">{words(_GONE[self.kind])}</p>'
-        return {"text/html": "" if self.passed else said, "text/plain": ""}
+        said = self._stored["text/html"]
+        said += "" if self.passed else f"<p>{words(_GONE[self.kind])}</p>"
+        html = f'{_ONE_OF_THEM}<div class="rosbeat-gone">{said}</div>' if said else ""
+        return {**self._stored, "text/html": html}
 
     def _hear(self, content: Mapping[str, Any]) -> None:
         action = self._actions.get(str(content.get("do")))

@@ -89,26 +89,35 @@ function predict(model, ask, say) {
   return { rows: [row], update: () => (row.hidden = model.get("passed")) };
 }
 
+const LOOKS = { "\u2713": "rb-right", "\u2717": "rb-wrong" }; // of the signs of `outcome_display`
+
 function quiz(model, ask) {
-  const rows = model.get("questions").map(({ id, choices }, question) =>
-    group(
-      `Question ${id}`,
-      make("span", {}, `Question ${id}:`),
-      ...choices.map((text, choice) =>
-        button(text[0], () => ask({ do: "choose", question, choice }, ""), {
-          title: text,
-          "aria-label": text,
-        }),
-      ),
-    ),
-  );
-  const update = () =>
-    model.get("questions").forEach(({ chosen }, number) =>
-      rows[number].querySelectorAll("button").forEach((one, choice) => {
-        one.setAttribute("aria-pressed", chosen === choice);
-      }),
+  const draw = ({ id, choices }, question) => {
+    const head = make("p");
+    const reason = make("p", { role: "status" });
+    const buttons = choices.map((_, choice) =>
+      button("", () => ask({ do: "choose", question, choice }, "")),
     );
-  return { rows, update };
+    const whole = make("div", { role: "group", "aria-label": `Question ${id}` });
+    whole.append(head, ...buttons, reason);
+    return { whole, head, reason, buttons };
+  };
+  const rows = model.get("questions").map(draw);
+  const update = () =>
+    model.get("questions").forEach(({ id, sign, text, choices, chosen, reason }, number) => {
+      const row = rows[number];
+      row.whole.className = `rb-question ${LOOKS[sign] || ""}`;
+      row.head.innerHTML = `<strong>${sign} Question ${id}: ${text}</strong>`;
+      row.buttons.forEach((one, choice) => {
+        const isChosen = chosen === choice;
+        one.setAttribute("aria-pressed", isChosen);
+        one.innerHTML = isChosen ? `${sign} ${choices[choice]}` : choices[choice];
+      });
+      // A screen reader says a status again when it is written again.
+      if (row.reason.dataset.said !== reason) row.reason.innerHTML = reason;
+      row.reason.dataset.said = reason;
+    });
+  return { rows: rows.map(({ whole }) => whole), update };
 }
 
 /** Mark what is on the page as gone when its kernel ends; return what stops the watching. */
@@ -161,7 +170,7 @@ function render({ model, el }) {
     clearTimeout(timer);
     update();
     status.innerHTML = model.get("said");
-    if (hadFocus && model.get("passed")) status.focus();
+    if (hadFocus && kind !== "quiz" && model.get("passed")) status.focus();
   }
 
   const shown = { check, predict, quiz }[kind](model, ask, say);

@@ -54,6 +54,17 @@ def test_a_wrong_answer_gets_its_own_reason_and_does_not_give_the_right_one_away
     assert "To answer" in said
 
 
+def test_every_choice_stays_the_chosen_one_is_marked_and_its_reason_comes_once():
+    first, *_ = QUESTIONS["03"]
+    shown = quiz("03", "a")
+    for said in (str(shown).split("Question 03.2")[0], shown.html().split("Question 03.2")[0]):
+        assert all(f"{letter}) " in said for letter in "abc")
+        assert "\N{RIGHTWARDS ARROW} a)" in said
+    said = str(shown)
+    assert said.count(first.choices[0].reason) == 1
+    assert not any(one.reason in said for one in first.choices[1:])
+
+
 @pytest.mark.parametrize(
     ("call", "said"),
     [
