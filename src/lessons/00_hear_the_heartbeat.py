@@ -81,10 +81,11 @@ predict("60", len(ros.messages("temperature")))
 # predict("____", len(ros.messages("temperature")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # One every second. `quiet=True` hides the log lines; the messages are sent all the same. The session records every one
 # of them, and `ros.messages` returns these records.
-#
+
+# %% [markdown]
 # On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
 # system's word for a running program. A session gives each node a simulated process, and the messages travel
 # through real ROS software. If you'd like to know more, read [what is simulated, and
@@ -155,10 +156,12 @@ predict("4", len(newsroom.logs()))
 # predict("____", len(newsroom.logs()))
 # --- end
 
+# %% [markdown] answers=true
+# Ana gets sports, Ben gets the weather, and neither gets anything else.
+
 # %% [markdown]
-# Ana gets sports, Ben gets the weather, and neither gets anything else. The picture shows why:
-# ellipses are nodes, boxes are topics, and messages follow the arrows. The slash is part of a topic's full
-# name: here, `weather` and `/weather` are the same topic.
+# The picture shows why: ellipses are nodes, boxes are topics, and messages follow the arrows. The slash is part of a
+# topic's full name: here, `weather` and `/weather` are the same topic.
 
 # %% shows=true
 viz.graph(newsroom)
@@ -190,9 +193,10 @@ predict("2", len(newsroom.messages("politics")))
 # predict("____", len(newsroom.messages("politics")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The politics reporter published two messages. It doesn't matter to a publisher whether anyone is listening.
-#
+
+# %% [markdown]
 # **Does a publisher notice a new subscriber?** Cleo joins late, and not a line of any reporter's code changes.
 
 # %% shows=true
@@ -278,7 +282,7 @@ class SportsReporter(Node):
 check("00b", SportsReporter)
 
 # %% [markdown]
-# ## What went wrong: one letter
+# ## Add one more reader
 #
 # Dan wants to read sports, too. **Predict:** how many lines does he log in the next second?
 
@@ -291,10 +295,12 @@ predict("0", len(newsroom.logs("dan")))
 # predict("____", len(newsroom.logs("dan")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # None, and there's no error message either. That's the price of decoupling: to a subscriber, a topic that nobody
-# publishes on looks exactly like one on which nothing has been published *yet*. Whenever a node stays silent, ask
-# the session to explain, and look at the graph:
+# publishes on looks exactly like one on which nothing has been published *yet*.
+
+# %% [markdown]
+# Whenever a node stays silent, ask the session to explain, and look at the graph:
 
 # %% shows=true
 newsroom.explain("sport")

@@ -66,10 +66,11 @@ predict("1", len(ros.logs()))
 # predict("____", len(ros.logs()))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # One line, and it comes from the constructor. A node does nothing on its own: something has to call its methods. For
 # a sensor, that's a timer.
-#
+
+# %% [markdown]
 # ## Publish on every tick
 #
 # Two calls in the constructor turn the node into a sensor that publishes regularly:
@@ -111,9 +112,10 @@ predict("0", len(ros.messages("temperature")))
 # predict("____", len(ros.messages("temperature")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # None. A timer waits for one full period first, and then calls: the first message comes at 1 second.
-#
+
+# %% [markdown]
 # ## Let the temperature fluctuate
 #
 # A real sensor doesn't report the same value every time. `random.uniform(-0.5, 0.5)` returns a random number
@@ -221,10 +223,11 @@ predict("1", program.returncode)
 # predict("____", program.returncode)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # `main` caught the `KeyboardInterrupt`, but then its last line failed. When you press `Ctrl` + `C`, rclpy shuts ROS
 # down itself, and a second `shutdown` is an error. `try_shutdown` shuts ROS down only if it's still running.
-#
+
+# %% [markdown]
 # The operating system can also stop a program with the signal `SIGTERM`. In that case, `spin` raises an
 # `ExternalShutdownException`. Your own `main` catches both exceptions.
 #
@@ -290,10 +293,11 @@ predict("0", program.returncode)
 # predict("____", program.returncode)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The numbers are the same as before, and the exit code is 0. The tutorial edits the file with `nano`, an editor;
 # here, you can double-click the file in the file browser.
-#
+
+# %% [markdown]
 # **How the data flows:** `main` initializes ROS and creates the node. The node creates its publisher and its
 # timer. Every second, the timer calls `publish_temperature`, which takes a random step, clamps the temperature,
 # publishes a message and logs a line. This continues until you press `Ctrl` + `C`.
@@ -385,7 +389,7 @@ class GreenhouseSensor(Node):
 check("03c", GreenhouseSensor)
 
 # %% [markdown]
-# ## What went wrong: a number is not a message
+# ## Publish a plain number
 #
 # **Predict:** this sensor publishes the number itself. How many messages does it publish in three seconds?
 
@@ -403,11 +407,12 @@ predict("0", len(ros.messages("temperature")))
 # predict("____", len(ros.messages("temperature")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # None. **Symptom:** a `TypeError`, and the node stops. **Where to look:** the error itself. It names the line,
 # what was expected, and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
 # a plain Python number. **Fix:** create a `Float32` and assign the number to its field `data`.
-#
+
+# %% [markdown]
 # ## Three questions
 #
 # Choose the best answer to each question. You can try as often as you like.

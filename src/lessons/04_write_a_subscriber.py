@@ -86,11 +86,12 @@ predict("3", len(ros.logs()))
 # predict("____", len(ros.logs()))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # Nothing for five seconds, then one line per second. A publisher is active: its timer drives it. A
 # subscriber is passive: it **reacts**, and only a message makes it run. It doesn't keep asking whether there's
 # anything new, and it doesn't matter that the sensor started later. Waiting costs almost nothing.
-#
+
+# %% [markdown]
 # ## Judge the temperature
 #
 # The monitor reports *High* above 26 degrees, *Low* below 20, and *Normal* in between. This is the whole file, which
@@ -202,7 +203,7 @@ predict("10", len(ros.logs()))
 # predict("____", len(ros.logs()))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # Ten. In the picture of the queue, the numbers are readings, and time runs from left to right. In the first 15
 # seconds, each column is one second. Then the listener resumes and takes ten readings at the same instant, one per
 # column.
@@ -243,10 +244,11 @@ predict("0", program.returncode)
 # predict("____", program.returncode)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # 0 means success: the program ends, and the operating system releases everything it used. Clean up all the same: in
 # larger programs, it matters.
-#
+
+# %% [markdown]
 # **How the data flows:** `main` creates the node, and the node creates its subscription. `rclpy.spin` waits.
 # When a message arrives, the callback evaluates the temperature and logs the status. Then `spin` waits again, until
 # you press `Ctrl` + `C`.

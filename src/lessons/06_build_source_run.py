@@ -141,8 +141,11 @@ predict("yes", workspace.terminal("monitor").busy)
 # predict("____", workspace.terminal("monitor").busy)
 # --- end
 
+# %% [markdown] answers=true
+# It is, and it's waiting. It got no error: to a subscriber, silence isn't unusual.
+
 # %% [markdown]
-# It is, and it's waiting. It got no error: to a subscriber, silence isn't unusual. Start the sensor again:
+# Start the sensor again:
 
 # %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"] shows=true
 # ros2 run sensor_simulator temperature_publisher

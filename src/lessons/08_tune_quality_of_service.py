@@ -107,11 +107,12 @@ ros, got = busy(20, 5)
 print(got)
 viz.queue(ros, "number")
 
-# %% [markdown]
+# %% [markdown] answers=true
 # This time, the publisher's depth was 20 and the subscriber's 5, and five numbers arrived. The tutorial is right about
 # the subscriber, but not about the publisher: messages for a slow subscriber wait in the subscriber's own queue. The
 # picture shows that queue. From 6 seconds on, each new number pushes the oldest one out: that's `KEEP_LAST`.
-#
+
+# %% [markdown]
 # The publisher's depth matters to subscribers that join late and ask for stored messages. It also matters when the
 # middleware can't deliver messages yet, because the network is slow or the subscriber's whole process is suspended.
 # This page can't show that, because a session delivers every message at once.
@@ -142,13 +143,14 @@ for offers in (reliable, best_effort):
         ros, got = busy(offers, asks)
         print(f"offers {offers.reliability.name:11}  asks {asks.reliability.name:11}", got)
 
-# %% [markdown]
+# %% [markdown] answers=true
 # In a session, nothing gets lost on the way, so three of the rows are alike: the collector's queue of 10 drops the
 # rest. In the third row, the two endpoints aren't connected, because their QoS is
 # [**incompatible**](../docs/glossary.md#incompatible). The rule is: **the publisher must offer at least what the
 # subscription asks for.** If it doesn't, no messages arrive. There's no error, only a warning: each side logs one line
 # when it discovers the other, and nothing after that. (The collector's line came late because it was paused.)
-#
+
+# %% [markdown]
 # ## Durability: what a late subscriber gets
 #
 # A subscription is [**late-joining**](../docs/glossary.md#late-joining) if it's created after messages have been
@@ -190,12 +192,13 @@ for offers, asks in ((5, 10), (1, 10), (10, 1)):
     got = late(stored(offers), stored(asks))
     print(f"publisher's depth {offers:2}, subscription's {asks:2}", got)
 
-# %% [markdown]
+# %% [markdown] answers=true
 # When the collector joins, the publisher has stored its last five numbers, 4 to 8. The first four rows show that
 # stored messages arrive only if *both* sides use `TRANSIENT_LOCAL`. The same rule applies: a subscription that asks
 # for more than the publisher offers gets nothing at all, not even new messages. In the last three rows, the smaller of
 # the two depths decides.
-#
+
+# %% [markdown]
 # ## Try it: the current mode
 #
 # A robot has a mode. The first one is `idle`; after that, each message on `command` sets it. Displays come and go.
@@ -300,10 +303,11 @@ predict(3, guard.missed)
 # predict("____", guard.missed)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The last number came at 3 seconds, so the deadline is missed at 5, 7 and 9. The event repeats after each further
 # period of silence.
-#
+
+# %% [markdown]
 # ## Lifespan: drop old messages
 #
 # A **lifespan** says how long a message is valid. Each endpoint with a lifespan drops older messages from its own
@@ -320,11 +324,12 @@ predict(4, len(got))
 # predict("____", len(got))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The other numbers were too old. A publisher's lifespan applies to the messages that it stores for late-joining
 # subscriptions, and not to messages that have already reached a subscription. That's how Fast DDS, the middleware
 # that runs here, does it.
-#
+
+# %% [markdown]
 # In a session, deadlines and lifespans are measured by the session's clock. One more policy, liveliness, is about
 # whether a publisher is still alive; see
 # [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).

@@ -95,11 +95,12 @@ predict("High", monitor.status)
 # predict("____", monitor.status)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # **Result: true for what ROS compares:** topic, type and quality of service. ROS doesn't compare what a number
 # *means*: `ros.explain` would find nothing wrong, but every status is wrong. The message type doesn't hold the unit.
 # Write it down where the authors of both sides will read it.
-#
+
+# %% [markdown]
 # ## 2. Decentralization: take a part away
 #
 # *If one node crashes, the others can often continue operating.*
@@ -122,9 +123,10 @@ predict("4", len(ros.logs()))
 # predict("____", len(ros.logs()))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # One for each reading, and none while the sensor was gone. Nobody had to connect the two again.
-#
+
+# %% [markdown]
 # Does this also hold for a real crash? The next two cells start a process each, running the files of your package
 # directly, without a build. The third cell does to the sensor what `kill -9` does: it ends the process immediately.
 #
@@ -147,11 +149,12 @@ predict("yes", workspace.terminal("monitor").busy)
 # predict("____", workspace.terminal("monitor").busy)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # **Result: partly true.** There is no central program that has to stay alive, and the monitor kept running. But it
 # ran *without readings*, and it didn't say so, because silence isn't a message. Wherever only one node knows
 # something, that node is still a single point of failure, and another node has to notice when it's gone.
-#
+
+# %% [markdown]
 # ## Try it: notice the silence
 #
 # Write a node that subscribes to `temperature` and publishes on `status`, as a `String`:
@@ -216,7 +219,7 @@ predict("60", len(ros.messages("temperature")))
 # predict("____", len(ros.messages("temperature")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The sensor publishes each message once, and all 50 monitors receive it. The next cell measures how long that keeps
 # the processor busy.
 
@@ -288,10 +291,11 @@ predict("5.5", ros.messages("beat")[2].time)
 # %% shows=true
 viz.timeline(ros)
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The bar is the sleeping callback, and the frame is the process. The heart's timer is due at 3 s, but its callback
 # has to wait until the other node's callback returns.
-#
+
+# %% [markdown]
 # Now each node gets a process of its own, as if you had typed `ros2 run` three times.
 #
 # **Predict:** at what time does that beat come now?
@@ -308,9 +312,10 @@ predict("3", ros.messages("beat")[2].time)
 # predict("____", ros.messages("beat")[2].time)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # On time: processes don't wait for each other.
-#
+
+# %% [markdown]
 # ## Try it: work, and keep beating
 #
 # Complete the worker. It subscribes to `order` (`Int32`), works on each order for 3 seconds, and then publishes the
@@ -404,10 +409,11 @@ predict("[5.5, 3, 3]", [default, two, reentrant])
 # predict("____", [default, two, reentrant])
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # With two groups, the beat is on time. In the reentrant group, the two orders overlap as well: both are done at 5.5
 # seconds.
-#
+
+# %% [markdown]
 # So threads can *wait* at the same time. Can they also *calculate* at the same time, on two cores? The next cell runs
 # the same two sums, first in two threads of one process, and then in two processes. `real` is the time on the clock.
 
@@ -464,12 +470,13 @@ predict("High", monitor.status)
 # predict("____", monitor.status)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # **Result: partly true.** You could change the names from outside, and the sensor's initial value. But the
 # monitor's limits and its *C* are fixed in its code. A node is as re-usable as its author makes it: with
 # parameters, without a unit in the code, and with [**relative**](../docs/glossary.md#relative-name) names, which
 # don't begin with a slash. In a terminal, you would start the monitor like this:
-#
+
+# %% [markdown]
 # ```bash
 # ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=humidity_monitor \
 #     -r __ns:=/greenhouse -r temperature:=humidity

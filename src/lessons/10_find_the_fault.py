@@ -99,10 +99,11 @@ predict("20", len(ros.messages("status")))
 # predict("____", len(ros.messages("status")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # All 20 are published. With one question, you know that everything up to the guard's `publish` works: whatever the
 # guard needs must be working, too. The fault is somewhere between the guard and the lamp.
-#
+
+# %% [markdown]
 # Do these two match?
 
 # %% shows=true
@@ -267,7 +268,7 @@ def diagnoses():
 check("10b", diagnoses)
 
 # %% [markdown]
-# ## What went wrong: a letter is missing
+# ## Repair it, and run it again
 #
 # Here are the sensor and the repaired lamp again, with a different guard. The owner of this system has found a fault in
 # a topic's name, and is sure: fix it, and the lamp will shine.
@@ -304,12 +305,13 @@ predict("0", len(ros.logs("lamp")))
 # %% shows=true
 ros.explain("status")
 
-# %% [markdown]
+# %% [markdown] answers=true
 # **Symptom:** the fix is right, but nothing changes. **Where to look:** ask the same questions once more, from
 # the sensor on. **Cause:** a second fault was hidden behind the first. While the guard received nothing, you couldn't
 # see that it would never publish: no number is above 28 *and* below 20. **Fix:** after each repair, examine the whole
 # system again.
-#
+
+# %% [markdown]
 # ## Try it: two faults
 #
 # Patients 9 to 11 have two faults each, at different places. The order doesn't matter.

@@ -136,9 +136,10 @@ predict("yes", again.logs() == first.logs())
 # predict("____", again.logs() == first.logs())
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # It does. A monitor can't tell the difference, because a subscriber knows the topic, but not its publishers.
-#
+
+# %% [markdown]
 # ## Compare two runs
 #
 # `bags.compare` compares two runs message by message: first the bag with its replay, and then the bag with a new run
@@ -205,11 +206,12 @@ predict("Normal", dead.logs()[-1].text.split("Status:")[1])
 # predict("____", dead.logs()[-1].text.split("Status:")[1])
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The monitor never complains. A hanging sensor looks perfectly healthy. A drift looks like weather. A lost
 # message doesn't call any callback. And a dead sensor, which sends NaN for five minutes, is *Normal* all the time:
 # `nan > 26.0` is false, `nan < 20.0` is false, and `else` gets everything that remains.
-#
+
+# %% [markdown]
 # ## What went wrong: looking for NaN
 #
 # Somebody writes a monitor that only looks for NaN. How many of the 300 NaN readings does it notice?

@@ -105,11 +105,12 @@ predict("30", window.percent)
 # predict("____", window.percent)
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # Both requests were refused, and neither changed anything. With NaN, `<`, `>` and `==` are always
 # false. The code asks whether a value is *valid*, so it refuses NaN. A test for invalid values, `value < 0 or value
 # > 100`, would let it pass.
-#
+
+# %% [markdown]
 # ## Try it: a threshold behind a service
 #
 # Offer a service `set_high` of the type `BasicTypes`. If the requested threshold is from 10 to 40, both included,
@@ -299,9 +300,10 @@ predict("3", len(guest.result))
 # predict("____", len(guest.result))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The work continues at 3 seconds, counts that second, and only then sees the request to cancel.
-#
+
+# %% [markdown]
 # ## Look underneath
 #
 # The tutorial says that services and actions *build upon* topics. Is that true? Underneath ROS is a middleware, DDS,

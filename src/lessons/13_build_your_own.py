@@ -118,11 +118,12 @@ predict("70-90", len(ros.messages("temperature")))
 # predict("____", len(ros.messages("temperature")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # It sends 78. The rest is silence: long enough for an alarm, for a second alarm that R4 doesn't allow, and for a report
 # without a single reading. Of the readings that come, two are outside -20 to 60 degrees, and four are NaN, "not a
 # number": any comparison with `<`, `>` or `==` is False.
-#
+
+# %% [markdown]
 # ## Draw before you write
 #
 # Take a sheet of paper. Draw the six topics at the edges and your nodes in the middle. For each node, write down
@@ -201,9 +202,10 @@ predict("2", len(ros.messages("vent")))
 # predict("____", len(ros.messages("vent")))
 # --- end
 
-# %% [markdown]
+# %% [markdown] answers=true
 # The vent opens at 29 degrees. At 27, it stays as it is, and at the second 25, it closes.
-#
+
+# %% [markdown]
 # ## Measure a silence
 #
 # When a sensor is silent, no callback runs, so something else has to check from time to time: a timer. Every node
@@ -385,7 +387,7 @@ ros.run(seconds=171, quiet=True)
 viz.graph(ros)
 
 # %% [markdown]
-# ## What went wrong: two controllers, one vent
+# ## Two controllers, one vent
 #
 # It rains into the greenhouse, so somebody adds a node that closes the vent when the air is very humid, and changes
 # nothing else. **Predict:** how many commands does the vent get in ten hot and humid seconds?
@@ -426,12 +428,13 @@ predict("20", len(ros.messages("vent")))
 # %% shows=true
 viz.graph(ros)
 
-# %% [markdown]
+# %% [markdown] answers=true
 # **Symptom:** the vent opens and closes every second, and ends up closed on a hot day. Neither node has a fault of
 # its own. **Where to look:** the graph, where two nodes publish on `vent`. **Cause:** a topic can have many
 # publishers, and the vent obeys the last message; nothing decides between them. **Fix:** let one node decide. The
 # others tell it what they want, on topics of their own.
-#
+
+# %% [markdown]
 # ## Make it a package
 #
 # Nothing in your nodes depends on this page, so they can become programs, as on pages 02 to 06. Begin with a

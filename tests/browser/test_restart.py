@@ -107,3 +107,30 @@ def test_where_everything_is_done_nothing_is_to_be_run_again(page_of, page, lab)
     again = Notebook(page, lab, notebook.name)
     again.says(0, "It was 40.")
     assert page.get_by_text(OFFERS["prediction"][2]).count() == 0
+
+
+FOLDED = """<details class="rosbeat-answer"><summary>After your prediction</summary>
+
+It was **forty**.
+
+</details>"""
+
+
+@pytest.mark.parametrize("way", ["field", "cell", "show"])
+def test_what_answers_a_prediction_is_folded_until_it_is_compared(page_of, page, way):
+    cell = "predict('____', 40)"
+    notebook = page_of(("code", cell), ("code", "1 + 1"), ("markdown", FOLDED), ("code", "2"))
+    answer = page.get_by_text("It was forty.")
+    notebook.run(0)
+    page.get_by_label("Your prediction").wait_for()
+    expect(answer).to_be_hidden()
+    if way == "field":
+        page.get_by_label("Your prediction").fill("39")
+        page.get_by_role("button", name="Compare", exact=True).click()
+    elif way == "show":
+        page.get_by_role("button", name="Show me").click()
+    else:
+        notebook.write(0, cell.replace("____", "41"))
+        notebook.run(0)
+    expect(answer).to_be_visible()
+    assert notebook.errors() == {}

@@ -257,6 +257,32 @@ def _guesses(text: str) -> list[object]:
     ]
 
 
+def unfolded_answer(desk: Desk) -> Iterator[Finding]:
+    """Require that what answers a prediction is folded on the learner's page, and nothing else.
+
+    That is the first text below it, and the heading above it says no more than the prediction asks.
+    """
+    is_asked, heading = False, ""
+    for cell in desk.learner_cells:
+        if cell.predict:
+            if heading.startswith("What went wrong:"):
+                what = f"the heading {heading!r} answers this prediction."
+                yield Finding(cell.line, what, "Say in the heading what is done, and no more.")
+            is_asked = True
+        if cell.answers and (cell.kind != "markdown" or not is_asked or any(headings(cell))):
+            what = "answers=true is for a text without headings, below a prediction."
+            yield Finding(cell.line, what, "Remove it, or give the heading a cell of its own.")
+        elif cell.kind == "markdown" and is_asked and not cell.answers:
+            what = "this text can be read before the prediction above it is made."
+            cure = (
+                "Begin what answers it with '# %% [markdown] answers=true', in a cell of its own."
+            )
+            yield Finding(cell.line, what, cure)
+        if cell.kind == "markdown":
+            is_asked = False
+            heading = [heading, *(text for _, text in headings(cell))][-1]
+
+
 def needless_import(desk: Desk) -> Iterator[Finding]:
     """Require that a page imports nothing that its kernel brings; a file imports what it uses."""
     brought = set(rosbeat.__all__)
@@ -395,6 +421,7 @@ LINTS: tuple[Lint, ...] = (
     answer_outside_exercise,
     exercise_pairs,
     predictions,
+    unfolded_answer,
     needless_import,
     broken_link,
     alt_text,

@@ -110,6 +110,14 @@ def read_page(path: Path) -> NotebookNode | None:
 
 # Before a page runs.
 
+#: What answers a prediction: whoever has compared theirs sees it open (`exercises/widgets.js`).
+_FOLDED = """\
+<details class="rosbeat-answer"><summary>After your prediction: what happened</summary>
+
+{}
+
+</details>"""
+
 
 def assemble(
     lesson: Lesson, tree: str, text: Callable[[str], str], lessons: Sequence[Lesson]
@@ -122,7 +130,8 @@ def assemble(
         text: Fills the answers of a code cell in, or puts blanks in their place.
         lessons: All lessons of the course, in order; without any there is nothing to link to.
     """
-    cells = [_cell(cell, text) for cell in lesson.cells if cell.only in (None, tree)]
+    is_folded = tree == "notebook"
+    cells = [_cell(cell, text, is_folded) for cell in lesson.cells if cell.only in (None, tree)]
     links = _neighbours(lesson, lessons)
     if links:
         cells.append(v4.new_markdown_cell(links))
@@ -142,10 +151,12 @@ def assemble(
     return page
 
 
-def _cell(cell: SourceCell, text: Callable[[str], str]) -> Any:  # noqa: ANN401 - untyped library
+def _cell(cell: SourceCell, text: Callable[[str], str], is_folded: bool) -> Any:  # noqa: ANN401 - untyped library
     is_code = cell.kind == "code"
     make = v4.new_code_cell if is_code else v4.new_markdown_cell
     made = make(text(cell.page_text) if is_code else cell.page_text)
+    if cell.answers and is_folded:
+        made.source = _FOLDED.format(cell.page_text)
     made.id = cell.id
     made.metadata.line = cell.line
     if cell.tags:

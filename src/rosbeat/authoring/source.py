@@ -39,9 +39,16 @@ _HEADER = ("# ---", r"# title: *(.+)", r"# minutes: *(\d+)", rf"# needs: *\[({_N
            r"# summary: *(.+)", "# ---")  # fmt: skip
 
 _MARKER = re.compile(r"# ?%%(\s|$)")
-_KNOWN_KEYS = {"exercise", "check", "only", "predict", "shows", "tags", "terminal", "save"}
+_KNOWN_KEYS = {
+    *("answers", "exercise", "check", "only", "predict", "shows", "tags", "terminal", "save"),
+}
 #: What a key may be where not every text or list is allowed.
-_VALUES = {"only": ("notebook", "solution"), "predict": (True,), "shows": (True,)}
+_VALUES = {
+    "only": ("notebook", "solution"),
+    "predict": (True,),
+    "shows": (True,),
+    "answers": (True,),
+}
 # jupytext would take `# ls` for a magic, and its comment sign away.
 _FORMAT = {"extension": ".py", "format_name": "percent", "comment_magics": False}
 # jupytext's note to itself about blank lines; it says nothing about the cell.
@@ -86,6 +93,7 @@ class SourceCell:
         check: Id of the exercise that is checked here.
         only: ``"notebook"`` or ``"solution"`` if the cell appears in one tree only.
         tags: Jupyter cell tags.
+        answers: Whether it tells what the prediction above it is about.
         predict: Whether the learner predicts here what the cell will do.
         shows: Whether it only shows something, so that no exercise depends on it.
         magic: IPython magic that precedes the text on the page, or an empty string.
@@ -99,6 +107,7 @@ class SourceCell:
     check: str | None = None
     only: str | None = None
     tags: tuple[str, ...] = ()
+    answers: bool = False
     predict: bool = False
     shows: bool = False
     magic: str = ""
@@ -305,6 +314,7 @@ def _cell(cell: Any, marker: int, name: str, seen: Counter[str]) -> SourceCell: 
         check=check,
         only=metadata.get("only"),
         tags=tuple(metadata.get("tags", ())),
+        answers=metadata.get("answers", False),
         predict=metadata.get("predict", False),
         shows=metadata.get("shows", False) or metadata.get("predict", False),
         magic=magic,

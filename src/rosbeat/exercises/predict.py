@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from IPython.display import display
+
 from rosbeat.errors import called_as
 from rosbeat.exercises.cells import cells_of
 from rosbeat.exercises.deferred_output import Withheld
@@ -247,6 +249,17 @@ class OpenPrediction(Prediction):
         self.withheld.shown()
 
 
+@dataclass(frozen=True, repr=False)
+class MadePrediction(Prediction):
+    """Show a prediction in a browser, and open what answers it below."""
+
+    def _ipython_display_(self) -> None:
+        from rosbeat.exercises.widget_actions import ExerciseWidget
+
+        display(self._repr_mimebundle_(), raw=True)
+        ExerciseWidget({}, "predict", passed=True).show()
+
+
 @called_as('predict("20-30", reading)')
 def predict(
     guess: object, happened: object, *, tolerance: float = 0.0, because: str = ""
@@ -277,7 +290,8 @@ def predict(
     agrees = compared(guess, happened, tolerance)
     if agrees is None:
         return Prediction(OPEN, f"That cannot be compared with {was}: write {form_of(happened)}.")
+    made = MadePrediction if cells is not None and cells.for_a_browser else Prediction
     if not agrees:
-        return Prediction(WRONG, f"You predicted {said}, and it was {was}. Look at why.", because)
+        return made(WRONG, f"You predicted {said}, and it was {was}. Look at why.", because)
     near = "" if compared(guess, happened) else " That is close enough."
-    return Prediction(RIGHT, f"You predicted {said}, and it was {was}.{near}", because)
+    return made(RIGHT, f"You predicted {said}, and it was {was}.{near}", because)

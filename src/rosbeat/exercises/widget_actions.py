@@ -95,8 +95,9 @@ class ExerciseWidget(AnyWidget):
         """
         if (cells := cells_of()) is not None:
             cells.hold(self)
-        display(self._gone(), raw=True, display_id=self._display_id)
-        self._is_shown = True
+        if self.kind != "predict" or not self.passed:
+            display(self._gone(), raw=True, display_id=self._display_id)
+            self._is_shown = True
         self.observe(lambda _: self._update(), "passed")
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
         mime = "application/vnd.jupyter.widget-view+json"

@@ -64,6 +64,13 @@ function check(model, ask) {
   return { rows: [row, question], update };
 }
 
+/** Open what answers a prediction: it is folded in the first text below the cell. */
+function unfold(element) {
+  let cell = element.closest(".jp-Cell")?.nextElementSibling;
+  while (cell?.classList.contains("jp-CodeCell")) cell = cell.nextElementSibling;
+  cell?.querySelector("details.rosbeat-answer")?.setAttribute("open", "");
+}
+
 function predict(model, ask, say) {
   const field = make("input", {
     type: "text",
@@ -86,7 +93,11 @@ function predict(model, ask, say) {
     button("Compare", compare),
     button("Show me", () => ask({ do: "show" }, "")),
   );
-  return { rows: [row], update: () => (row.hidden = model.get("passed")) };
+  const update = () => {
+    row.hidden = model.get("passed");
+    if (row.hidden) unfold(row);
+  };
+  return { rows: [row], update };
 }
 
 const LOOKS = { "\u2713": "rb-right", "\u2717": "rb-wrong" }; // of the signs of `outcome_display`
@@ -177,6 +188,7 @@ function render({ model, el }) {
   whole.append(...shown.rows, status);
   el.append(whole);
   hear();
+  requestAnimationFrame(shown.update); // now it has a place on the page
   const unwatch = watch(model, whole);
   model.on("change:begun", begin);
   model.on("change:done", hear);

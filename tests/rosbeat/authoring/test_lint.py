@@ -72,6 +72,16 @@ BROKEN = {
         PREDICTION.replace("predict=true", 'predict=true exercise="00a"'),
         PREDICTION.replace("predict=true", 'predict=true check="00a"'),
     ],
+    "unfolded-answer": [
+        PREDICTION + "# %% [markdown]\n# Two.",
+        PREDICTION + "# %%\nlen(beats)\n# %% [markdown]\n# Two.",
+        PREDICTION + "# %% [markdown]\n# ## Next\n#\n# Two.",
+        PREDICTION + "# %% [markdown] answers=true\n# Two.\n#\n# ## Next",
+        PREDICTION + "# %% answers=true\nlen(beats)",
+        "# %% [markdown] answers=true\n# Two.",
+        PREDICTION + "# %% [markdown] answers=true\n# Two.\n# %% [markdown] answers=true\n# Two.",
+        "# %% [markdown]\n# ## What went wrong: two\n" + PREDICTION,
+    ],
     "needless-import": ["# %%\nimport random\n\nfrom rosbeat import Session, check",
                         "# %%\ndef f():\n    from rosbeat import viz as v"],
     "broken-link": [
@@ -103,6 +113,8 @@ KEPT = [
     + '# %% check="00a"\nf\n# %%\nclass B:\n    def __init__(self):\n        self.x = 1',
     EXERCISE.split("# %% check")[0] * 4 + '# %% check="00a"\nf',
     PREDICTION,
+    PREDICTION + "# %% [markdown] answers=true\n# Two.\n# %% [markdown]\n# ## Next",
+    PREDICTION + "# %%\nbeats\n# %% [markdown] answers=true\n# Two.\n" + PREDICTION,
     '# %% save="src/p/setup.py" exercise="00a"\n'
     + ANSWER.format('setup(entry="p.sensor:main")', "# setup(entry=____)")
     + '# %% check="00a"\nf',

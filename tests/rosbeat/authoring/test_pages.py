@@ -279,3 +279,19 @@ def test_a_page_that_cannot_be_read_has_nothing_to_keep(tmp_path, content):
     if content is not None:
         path.write_bytes(content)
     assert rebuilt(path, tagged("5\n")) == "5\n"
+
+
+# What answers a prediction.
+
+
+@pytest.mark.parametrize("tree", ["notebook", "solution"])
+def test_what_answers_a_prediction_is_folded_on_the_learners_page_only(checkout, tree):
+    lesson = checkout.lesson("# %% [markdown] answers=true\n# **Two.**")
+    page = pages.assemble(lesson, tree, str, ())
+    (text,) = [cell.source for cell in page.cells if "**Two.**" in cell.source]
+    if tree == "solution":
+        assert text == "**Two.**"
+        return
+    # Without the empty lines, Markdown inside would be shown as it is written.
+    assert text.startswith('<details class="rosbeat-answer"><summary>')
+    assert "</summary>\n\n**Two.**\n\n</details>" in text
