@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+import rosbeat
 from rosbeat.authoring.lint import tree_of
 from rosbeat.authoring.source import SourceCell, read_lesson, with_answers
 
@@ -65,7 +66,7 @@ def names_in(cell: SourceCell, ours: frozenset[str], known: set[str]) -> Iterato
     Args:
         cell: The cell, answers included.
         ours: The public attributes of what a page is given.
-        known: The names that the page has imported from the course so far; imports are added.
+        known: The names of the course that the page has so far; imports are added.
     """
     if cell.magic:
         yield from re.findall(r"%%?[a-z]+|--[a-z-]+", cell.magic)
@@ -76,6 +77,8 @@ def names_in(cell: SourceCell, ours: frozenset[str], known: set[str]) -> Iterato
             known |= {one.name for one in node.names}
             yield from (one.name for one in node.names)
     for node in _outside_of_nodes(tree):
+        if isinstance(node, ast.Name) and node.id in rosbeat.__all__:  # every page knows them
+            yield node.id
         if isinstance(node, ast.Attribute) and node.attr in ours and _is_ours(node.value, foreign):
             yield node.attr
         if isinstance(node, ast.Call) and _is_called_on_ours(node.func, ours, known, foreign):
@@ -114,7 +117,7 @@ def names_of(path: Path) -> set[str]:
     Args:
         path: The source of the page.
     """
-    known: set[str] = set()
+    known = set(rosbeat.__all__)
     ours = given()
     return {name for cell in read_lesson(path).cells for name in names_in(cell, ours, known)}
 
