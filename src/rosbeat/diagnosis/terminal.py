@@ -552,6 +552,44 @@ def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
     )
 
 
+#: `s/old/new/` of sed, with any sign between its parts, for all lines or for some.
+_SUBSTITUTION = re.compile(r"(?:/[^/]*/)?\s*s([^\w\s\\])(.+?)\1([^&\\]*?)\1[gIip0-9]*")
+
+
+def substitution(words: Iterable[str]) -> tuple[str, str] | None:
+    """Return what a `sed` replaces, and by what; None if it does anything else.
+
+    Args:
+        words: The words of the command.
+    """
+    scripts = [found for word in words if (found := _SUBSTITUTION.fullmatch(word))]
+    return (scripts[0][2], scripts[0][3]) if len(scripts) == 1 else None
+
+
+def writes_file(words: Iterable[str]) -> bool:
+    """Return whether a `sed` writes the changed text into the file.
+
+    Args:
+        words: The words of the command.
+    """
+    return any(re.match(r"-[a-zA-Z]*i|--in-place", word) for word in words)
+
+
+def _nothing_replaced(_: Situation, call: Call, __: Found) -> Diagnosis | None:
+    """Recognise a `sed -i` that found nothing: what it writes is not in the file afterwards."""
+    made, path = substitution(call.words), call.place / call.words[-1]
+    if made is None or not made[1] or not writes_file(call.words) or not path.is_file():
+        return None
+    if made[1] in path.read_text(encoding="utf-8", errors="replace"):
+        return None
+    return Diagnosis(
+        "nothing-replaced",
+        f"`sed` found nothing to replace: no line of {call.words[-1]} matches `{made[0]}`, so the "
+        "file is as it was.",
+        f"`cat {shlex.quote(call.words[-1])}` shows what it says now. Compare, letter by letter.",
+    )
+
+
 _COMMAND_RULES = (
     Row("dot-slash-missing", "{1}", _not_found(),
         "{1} is in this folder, but the shell does not search the current folder for programs:",
@@ -573,6 +611,7 @@ _COMMAND_RULES = (
     Rule("{1}", _not_found(), _misspelt),
 )  # fmt: skip
 _FILE_RULES: Rules = (
+    Rule("sed", r"\A\s*\Z", _nothing_replaced),
     Rule("chmod", r"^chmod: cannot access '([^']+)': No such file", _no_such_file),
     Row("word-misspelled", "chmod", r"^chmod: invalid mode: ",
         "`chmod` does not understand its first argument.",

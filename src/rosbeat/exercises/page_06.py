@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ast
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import diagnose_flaw, parse
-from rosbeat.diagnosis.terminal import commands_in
+from rosbeat.diagnosis.terminal import commands_in, substitution, writes_file
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import spelling
 from rosbeat.exercises.scenarios import (
@@ -191,7 +192,7 @@ def _diagnose_change(seen: CodeChange) -> Verdict:
         return Diagnosis(
             "nothing-logged",
             "The text that the monitor logs at its start is gone.",
-            f"Only the end of {_OLD!r} changes.",
+            f"Only the end of {_OLD!r} changes. {_WAY_BACK}",
         )
     said.sort(key=lambda one: -len(set(one.split()).intersection(_NEW.split())))
     evidence = f"The file in src says {said[0]!r}; {_NEW!r} was asked for."
@@ -200,7 +201,25 @@ def _diagnose_change(seen: CodeChange) -> Verdict:
         hint = (
             "The text has more words than that. Only those that the exercise names are asked for."
         )
-    return Diagnosis("wrong-word", evidence, hint)
+    return Diagnosis("wrong-word", evidence, f"{hint} {_about_trying_again(seen)}".strip())
+
+
+#: How to have the file again as it was before the first try.
+_WAY_BACK = (
+    "To begin anew, run the cell of page 04 that saves the file, `%%save`; your version is kept."
+)
+
+
+def _about_trying_again(seen: CodeChange) -> str:
+    """Say how the next try finds the words that an earlier one has written."""
+    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
+    made = substitution(words)
+    if made is None:
+        return ""
+    with suppress(re.error):  # quotes and parentheses are around a text and not in it
+        if any(re.search(made[0].strip("\"'()"), text) for text in seen.source):
+            return "Correct the line and run it again."
+    return f"The file no longer holds {made[0]!r}, for which that `sed` looks. {_WAY_BACK}"
 
 
 def _diagnose_nothing_changed(seen: CodeChange) -> Verdict:
@@ -208,16 +227,17 @@ def _diagnose_nothing_changed(seen: CodeChange) -> Verdict:
     said = f"The monitor's file in src still says {_OLD!r}."
     if not seen.tried:
         return not_attempted(said)
+    tried = f"You typed `{seen.tried}`. {said}"
+    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
+    if writes_file(words) and not any(word.endswith(_MONITOR) for word in words):
+        return Diagnosis("other-file", tried, f"The monitor's file is {_MONITOR}.")
     known = diagnosis_of(seen.meaning)
     if known:
         return known
-    said = f"You typed `{seen.tried}`. {said}"
-    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
-    if words and not any(re.match(r"-\w*i|--in-place", word) for word in words):
+    said = tried
+    if words and not writes_file(words):
         hint = "sed prints the changed text. Which option writes it into the file instead?"
         return Diagnosis("only-printed", said, hint)
-    if words and not any(word.endswith(_MONITOR) for word in words):
-        return Diagnosis("other-file", said, f"The monitor's file is {_MONITOR}.")
     if words:
         hint = "The first of the two texts has to be in the file, letter by letter."
         return Diagnosis("nothing-replaced", said, hint)
@@ -314,7 +334,7 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise("06a", look_at_change, _judge_change, title="change the code", hints=(
         "`sed -i 's/old/new/' file` replaces the first text by the second one, wherever it is "
-        "in a line.",
+        "in a line; `.*` in the first one stands for any words.",
         "The new text ends with a number. Compare it with the text above, with its capital "
         "letter and its space.",
     )),
