@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING
 
-from rosbeat.errors import RosbeatError
+from rosbeat.errors import RosbeatError, explain_interrupt
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -39,19 +39,21 @@ def register(shell: InteractiveShell) -> None:
         shell: The running shell.
     """
     if not shell.custom_exceptions:
-        shell.set_custom_exc((Exception,), _show)
+        shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
 
 
 def _show(
     shell: InteractiveShell,
-    kind: type[Exception],
-    error: Exception,
+    kind: type[BaseException],
+    error: BaseException,
     trace: TracebackType | None,
     tb_offset: int | None = None,
 ) -> None:
     """Show an exception as IPython does, with two lines below it."""
     mine = _lines_of_the_page(shell, trace)
-    means = _explained(shell, error, mine)
+    if isinstance(error, KeyboardInterrupt) and not hasattr(error, "_render_traceback_"):
+        _explain_interrupt(error, mine)
+    means = _explained(shell, error, mine) if isinstance(error, Exception) else None
     if means is None:
         shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
         return
@@ -64,6 +66,22 @@ def _show(
     below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"]
     # Not by `showtraceback`: an error that is raised again would keep these lines.
     shell._showtraceback(kind, error, [*shown, *below])
+
+
+def _explain_interrupt(error: KeyboardInterrupt, mine: list[tuple[FrameType, int, bool]]) -> None:
+    """Say where Interrupt has stopped a cell, instead of a stack."""
+    where = ""
+    if mine:
+        frame, line, _ = mine[-1]
+        code = linecache.getline(frame.f_code.co_filename, line).strip()
+        where = f" in line {line}" + (f": {code}" if code else "")
+    explain_interrupt(
+        error,
+        f"you stopped the cell{where}",
+        "Nothing is broken: the lines above have run, and what they defined is still there.",
+        "If the cell would never have ended by itself, look at the condition of its loop. "
+        "Otherwise run it again, and give it more time.",
+    )
 
 
 def _lines_of_the_page(

@@ -888,7 +888,23 @@ def _is_python(_: Situation, package: Package) -> bool:
     return package.manifest.build_type == "ament_python"
 
 
+def _stray_manifest(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    """Recognise a `package.xml` that makes one package of a folder that holds several."""
+    above = (seen.workspace, seen.workspace / "src")
+    strays = [one.folder for one in seen.packages if one.folder in above]
+    if not strays:
+        return None
+    path = (strays[0] / "package.xml").relative_to(seen.workspace)
+    return Diagnosis(
+        "wrong-folder",
+        f"There is a {path} in your workspace, so colcon takes {path.parent.name or 'all of it'} "
+        "for one package and finds none of the packages below.",
+        f'Each package has its own package.xml. Remove this one: rm "${VARIABLE}"/{path}',
+    )
+
+
 _BUILD_RULES = (
+    Rule("colcon (?:build|list|test)", "", _stray_manifest),
     Row("wrong-folder", _BUILD, "",
         "You ran the build inside the folder {here}, so build, install and log are there now "
         "instead of in the workspace.",

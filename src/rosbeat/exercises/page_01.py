@@ -24,7 +24,7 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
     typed_about,
 )
-from rosbeat.exercises.workspace_model import alike, diagnosis_of
+from rosbeat.exercises.workspace_model import alike, diagnosis_of, in_workspace
 from rosbeat.workspace.location import NAME, workspace
 from rosbeat.workspace.prerequisites import FOLDERS
 
@@ -126,8 +126,13 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
     there = {one for one in seen.workspace.folders if _is_near(one) and one != _ALARM}
     known = diagnosis_of(seen.meaning)
     if seen.obstacle:
-        said = f"{_ALARM} is {seen.obstacle}, and a folder of this workspace was asked for."
-        hint = "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one."
+        # Behind a link, the link is what has to go.
+        path = _RUNS_THROUGH if "behind" in seen.obstacle else _ALARM
+        said = (
+            f"{_ALARM} is {seen.obstacle}, and a folder of this workspace was asked for. "
+            f"`rm {in_workspace(path)}` removes it."
+        )
+        hint = "Remove it, and make the folder with `mkdir`: it makes a new, empty one."
         return Diagnosis("not-a-folder", said, hint)
     if known and known.mistake != "folder-exists":  # which is no mistake here
         hint = _PWD if _ALARM in known.hint else known.hint

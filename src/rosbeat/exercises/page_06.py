@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,15 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
     typed_about,
 )
-from rosbeat.exercises.workspace_model import FLAW_HINTS, alike, diagnose_script, diagnosis_of
+from rosbeat.exercises.workspace_model import (
+    FLAW_HINTS,
+    SETUP_ANEW,
+    about_stray,
+    alike,
+    diagnose_script,
+    diagnosis_of,
+    in_workspace,
+)
 from rosbeat.workspace.packages import Package
 
 _PACKAGE = "sensor_simulator"
@@ -145,9 +153,11 @@ def _judge_change(seen: CodeChange) -> Verdict:
     if seen.package.flaws:
         flaw = seen.package.flaws[0]
         found = diagnose_flaw(flaw)
-        return Diagnosis(found.mistake, found.evidence, FLAW_HINTS[flaw.kind])
+        hint = FLAW_HINTS[flaw.kind]
+        hint = hint if "%%save" in hint else f"{hint} {_WAY_BACK}"
+        return Diagnosis(found.mistake, found.evidence, hint)
     if _NEW in seen.source and _NEW not in seen.logged:
-        hint = "It was logged with self.get_logger().info(...). Only the words change."
+        hint = f"It was logged with self.get_logger().info(...). Only the words change. {_WAY_BACK}"
         return Diagnosis(
             "nothing-logged", f"The file in src says {_NEW!r}, and logs it nowhere.", hint
         )
@@ -169,7 +179,7 @@ def _about_copies(seen: CodeChange) -> str:
 
 def _diagnose_change(seen: CodeChange) -> Verdict:
     if _NEW in seen.source:
-        hint = "Replace the old text; don't add a second one."
+        hint = f"Replace the old text; don't add a second one. {_WAY_BACK}"
         return Diagnosis("wrong-word", f"The file in src says {_OLD!r}, too.", hint)
     if _NEW in seen.copies:
         return Diagnosis(
@@ -290,6 +300,8 @@ def _judge_links(made: LinkMaking) -> Verdict:
         return not_attempted(f"There is no package {_PACKAGE} in src yet.")
     if package.installed and package.installed.linked:
         return passed(f"{_PACKAGE} is installed as a link to src.")
+    if made.tried and seen.strays:
+        return about_stray(seen.strays[0])
     found = _diagnose_build(seen, package)
     if found:
         return found
@@ -316,11 +328,14 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
         return Diagnosis(
             "wrong-folder",
             f"There is a folder install in {place}: the build was made there.",
-            "colcon builds into the folder where it is typed. Remove build, install and log there, "
-            "and build in the workspace.",
+            "colcon builds into the folder where it is typed. Remove what it has made there, `rm "
+            f"-r {in_workspace(place)}/{{build,install,log}}`, go back with `cd {in_workspace('')}`, "
+            "and build there.",
         )
     flaws = [one for one in package.flaws if one.kind in ("missing-comma", "slash")]
     broken = diagnose_script(package) or (diagnose_flaw(flaws[0]) if flaws else None)
+    if broken and "%%save" not in broken.hint:
+        broken = replace(broken, hint=f"{broken.hint} {SETUP_ANEW}")
     others = [name for name, one in seen.packages.items() if one.installed and one.installed.linked]
     if broken or not others:
         return broken
