@@ -174,11 +174,10 @@ def output_of(seen: object, printed: Sequence[str], status: str) -> tuple[tuple[
 def _first_of(lines: Sequence[str]) -> str:
     more = len(lines) - _FIRST
     rest = [f"... and {more} more line{'s' if more > 1 else ''}"] if more > 0 else []
-    # A text of one line would be read as a sentence.
-    return "\n".join(["", *(shorten_line(one) for one in lines[:_FIRST]), *rest])
+    return "\n".join([*map(_short, lines[:_FIRST]), *rest])
 
 
-def shorten_line(line: str) -> str:
+def _short(line: str) -> str:
     """Return a line that fits on a page."""
     return line if len(line) <= _WIDEST else f"{line[: _WIDEST - 4]} ..."
 
@@ -250,7 +249,8 @@ class Shown:
 
     def _rows(self) -> Iterator[str]:
         for label, text in self._details():
-            yield f"  {f'{label}: ' if label else ''}{indented(text, '    ')}"
+            between = "\n    " if "\n" in text else " "
+            yield f"  {f'{label}:{between}' if label else ''}{indented(text, '    ')}"
 
     def _details(self) -> Iterator[tuple[str, str]]:
         """Generate what comes below the head: a label, which may be empty, and a text."""

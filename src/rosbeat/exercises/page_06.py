@@ -329,8 +329,8 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
             "wrong-folder",
             f"There is a folder install in {place}: the build was made there.",
             "colcon builds into the folder where it is typed. Remove what it has made there, `rm "
-            f"-r {in_workspace(place)}/{{build,install,log}}`, go back with `cd {in_workspace('')}`, "
-            "and build there.",
+            f"-r {in_workspace(place)}/{{build,install,log}}`, go back with "
+            f"`cd {in_workspace('')}`, and build there.",
         )
     flaws = [one for one in package.flaws if one.kind in ("missing-comma", "slash")]
     broken = diagnose_script(package) or (diagnose_flaw(flaws[0]) if flaws else None)

@@ -203,8 +203,8 @@ def _diagnose_installation(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "build-type",
             f"setup.py is fine, and package.xml says {kind}: colcon would not even read setup.py.",
-            "<build_type> belongs to a package for Python. "
-            f"Type `sed -i 's/ament_cmake/ament_python/' {in_workspace(package.folder.as_posix())}/package.xml`.",
+            "<build_type> belongs to a package for Python. `sed -i 's/ament_cmake/ament_python/' "
+            f"{in_workspace(package.folder.as_posix())}/package.xml` writes it.",
         )
     if not package.setup.installs(name):
         return Diagnosis(

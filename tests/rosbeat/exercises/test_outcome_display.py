@@ -69,8 +69,8 @@ def test_a_check_shows_the_first_lines_that_a_node_printed_and_logged():
     exec(f"from rclpy.node import Node\n{PRINTS}", space)
     shown = check("03a", space["Talker"])
     for view in (str(shown), re.sub("<[^>]*>", "\n", shown.html())):
-        assert re.search(r"Your code printed:\s+made\s+tick 1000000000", view)
-        assert re.search(r"and \d+ more lines", view)
+        assert re.search(r"Your code printed:\s+made\s+tick 1\d+\n", view)
+        assert re.search(r"and 1 more line", view)
         assert re.search(r"Your node logged:\s+1.00 s  INFO  a reading", view)
 
 
