@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import linecache
+import re
 from difflib import get_close_matches
+from functools import partial
+from pathlib import Path
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING
 
@@ -12,18 +15,9 @@ from rosbeat.errors import RosbeatError, explain_interrupt
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
+#: Commands of the course that begin a cell.
+_MAGICS = ("terminal", "save")
 _RUN = "Run, Run All Above Selected Cell in the menu."
-_SYNTAX = (
-    "Python can't read this cell, so none of its lines ran.",
-    "Look at the place that is marked, and at the end of the line above it: a quote, a bracket, a "
-    "comma or a colon may be missing.",
-)
-_INDENTATION = (
-    "Python can't read this cell, so none of its lines ran: the spaces at the beginning of a line "
-    "don't match the lines around it.",
-    "Lines of one block begin with the same number of spaces. After a line that ends with a colon, "
-    "indent by four more.",
-)
 _UNKNOWN = (
     "The cell stopped at the line that is marked; the lines below it didn't run.",
     f"Compare that line with the page. If a cell above hasn't run yet, choose {_RUN}",
@@ -38,6 +32,8 @@ def register(shell: InteractiveShell) -> None:
     Args:
         shell: The running shell.
     """
+    shell.showsyntaxerror = partial(_show_unread, shell)
+    shell.automagic = False  # or `ls` would list, and `cd` change, the folder of the page
     if not shell.custom_exceptions:
         shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
 
@@ -66,6 +62,13 @@ def _show(
     below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"]
     # Not by `showtraceback`: an error that is raised again would keep these lines.
     shell._showtraceback(kind, error, [*shown, *below])
+
+
+def _show_unread(shell: InteractiveShell, *_: object, **__: object) -> None:
+    """Show the error of a cell that Python could not read, wherever IPython has met it."""
+    kind, error, trace = shell._get_exc_info()  # of the preparation of a cell, the last one
+    if kind is not None and isinstance(error, SyntaxError):
+        _show(shell, kind, error, trace)
 
 
 def _explain_interrupt(error: KeyboardInterrupt, mine: list[tuple[FrameType, int, bool]]) -> None:
@@ -102,17 +105,64 @@ def _explained(
     """Return what an exception means and what to try; None if it says so itself."""
     from IPython.core.error import UsageError
 
-    if isinstance(error, (RosbeatError, UsageError)):
+    if isinstance(error, UsageError):
+        return _about_magic(str(error))
+    if isinstance(error, RosbeatError):
         return None
+    unread = getattr(error, "of_text", error)  # `%%save` reads the text of a file
+    if isinstance(unread, SyntaxError) and (unread is not error or not mine):
+        from rosbeat.diagnosis.syntax import about_syntax
+
+        return about_syntax(unread, _cell_of(shell))
     if not mine:  # before the cell ran, or in code that no cell has called
-        if not isinstance(error, SyntaxError):
-            return None
-        return _INDENTATION if isinstance(error, IndentationError) else _SYNTAX
+        return None
     frame, line, is_last = mine[-1]
+    if isinstance(error, (ImportError, AttributeError)) and (found := _about_files(error)):
+        return found
     if type(error) is NameError:
+        found = _about_command(shell, error) or _about_constant(error.name)
+        if found:
+            return found
         return _about_name(shell, error) if is_last else None
     code = linecache.getline(frame.f_code.co_filename, line).strip()
     return _known(error, line, code) or _UNKNOWN
+
+
+def _about_magic(text: str) -> tuple[str, str] | None:
+    """Return the same for a command of the notebook that does not exist."""
+    found = re.search(r"magic(?: function)? `%+(\w+)` not found", text)
+    if found is None:
+        return None
+    near = get_close_matches(found[1].lower(), _MAGICS, 1)
+    to_try = f"Did you mean `%%{near[0]}`?" if near else "Those of the course are `%%terminal` "
+    return (
+        f"A line that begins with `%` is a command of the notebook, and none is called {found[1]}.",
+        to_try if near else f"{to_try}and `%%save`. Compare the cell's first line with the page.",
+    )
+
+
+def _about_command(shell: InteractiveShell, error: NameError) -> tuple[str, str] | None:
+    """Return the same for a command of a terminal that Python has read as names, as in `ls -l`."""
+    from rosbeat.diagnosis.syntax import COMMANDS, command_in
+
+    return command_in(_cell_of(shell)) if error.name in COMMANDS else None
+
+
+def _about_constant(name: str | None) -> tuple[str, str] | None:
+    """Return the same for a value that other languages write in small letters."""
+    right = {"true": "True", "false": "False", "none": "None", "null": "None", "nil": "None"}
+    if name not in right:
+        return None
+    return (
+        f"Python does not know `{name}`.",
+        f"It is called `{right[name]}`, with a capital letter.",
+    )
+
+
+def _cell_of(shell: InteractiveShell) -> str:
+    """Return the text of the cell that ran last; empty if it begins with a magic."""
+    cells = shell.history_manager.input_hist_raw if shell.history_manager else [""]
+    return "" if cells[-1].startswith("%") else str(cells[-1])
 
 
 def _about_name(shell: InteractiveShell, error: NameError) -> tuple[str, str] | None:
@@ -129,11 +179,28 @@ def _about_name(shell: InteractiveShell, error: NameError) -> tuple[str, str] | 
     return f"No cell that has run since the kernel started defines `{name}`.", to_try
 
 
+def _about_files(error: Exception) -> tuple[str, str] | None:
+    """Return the same for a module that a file of the learner's hides, or that is one itself."""
+    from rosbeat.diagnosis.modules import about_hidden, about_neighbor
+    from rosbeat.workspace.location import workspace
+
+    then = "Then restart the kernel, which has loaded the file already: Kernel, Restart Kernel."
+    files = (workspace() / "src").glob("*/*/*.py") if "No module" in str(error) else ()
+    found = about_hidden(str(error), [Path.cwd()], then) or about_neighbor(
+        str(error), [(file.parent.name, file.stem) for file in files]
+    )
+    return None if found is None else (found.evidence, found.hint)
+
+
 def _known(error: Exception, line: int, code: str) -> tuple[str, str] | None:
     """Return the meaning of an exception that a mistake of the catalogue raises."""
     # The rules are many, and most cells raise nothing.
     from rosbeat.diagnosis.exceptions import meaning_of
     from rosbeat.records import Fault
 
-    found = meaning_of(Fault(0, "", "", type(error).__name__, str(error), line, code))
+    text = str(error)
+    if isinstance(error, AttributeError) and "Did you mean" not in text and error.name:
+        near = get_close_matches(error.name, dir(error.obj), 1, 0.7)
+        text += f". Did you mean: '{near[0]}'?" if near else ""
+    found = meaning_of(Fault(0, "", "", type(error).__name__, text, line, code))
     return None if found is None else (found.evidence, found.hint)

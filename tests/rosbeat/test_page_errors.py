@@ -86,8 +86,8 @@ def test_a_misspelled_name_is_compared_with_the_names_of_the_page(shown):
 
 @pytest.mark.parametrize(("cell", "said"), [
     ("print('hello'", "Python can't read this cell"),
-    ("def f():\nreturn 1", "the spaces at the beginning of a line"),
-    ("class A\n    pass", "a colon may be missing"),
+    ("def f():\nreturn 1", "the line below it is not indented"),
+    ("class A\n    pass", "A colon is missing"),
     ("def f():\n    a = b\n    b = 1\nf()", "b has no value yet at this line."),
     ("from std_msgs.msg import Float32\nFloat32().dat", "A Float32 has no field called dat."),
     ("from std_msgs.msg import Flot32", "Float32"),

@@ -17,6 +17,7 @@ from difflib import get_close_matches
 from rosbeat.diagnosis import calls
 from rosbeat.diagnosis.calls import MESSAGES, article, called_by_ros, matched
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.modules import about_name, about_relative
 from rosbeat.records import Fault
 
 #: A rule knows one kind of mistake, and answers None if an exception is none of its kind.
@@ -922,7 +923,9 @@ def _not_importable(fault: Fault) -> Diagnosis | None:
         return Diagnosis("not-importable", f"{name[2]} has no {name[1]}.{meant}", hint)
     module = matched(fault, r"No module named '([\w.]+)'")
     if not module:
-        return None
+        return about_relative(fault.text)
+    if known := about_name(module[1]):
+        return known
     near = get_close_matches(module[1], _KNOWN_MODULES, 1, 0.7)
     meant = f" There is {near[0]}." if near and near[0] != module[1] else ""
     hint = "Compare the module's name letter by letter with the imports on the page."
@@ -1013,6 +1016,9 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "Which name on this line is before the parentheses? A function of a module or an object "
         "comes after a dot; a value takes no parentheses.",
         when=lambda fault, _: not called_by_ros(fault)),
+    Row("text-and-number", r"could not convert string to float: '(-?\d+),(\d+)'",
+        "'{1},{2}' is no number for Python: a comma separates values.",
+        "The decimal sign is a point: {1}.{2}"),
     Row("division-by-zero", r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
         "This line divides by zero, for example by the length of a list that is still empty.",
         "How many readings are there at the first call?"),
@@ -1030,6 +1036,11 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "{1} requires {2}, but is called without arguments.",
         "Look at the line that begins with def {1}: which parameters does it have besides self?",
         when=lambda fault, found: f"self.{found[1]}()" in fault.code),
+    Row("argument-missing",
+        r"^TypeError: (?:\w+\.)*(?!__init__)(\w+)\(\) missing \d required positional .+?: (.+)",
+        "{1} was called without {2}, which it needs.",
+        "How many values does {1} take, and how many are there between its parentheses?",
+        when=lambda fault, found: f"{found[1]}(" in fault.code and not called_by_ros(fault)),
     Row("constructor-parameters", r"__init__\(\) missing \d .*?arguments?: (.+)",
         "The constructor requires {1}, but the class is called without arguments.",
         "A session calls your class without arguments, so the constructor's only parameter "

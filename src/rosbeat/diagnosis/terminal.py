@@ -19,6 +19,7 @@ from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.modules import about_hidden, about_name, about_neighbor
 from rosbeat.diagnosis.packages import BROKEN, NO_CALL, Package, diagnose_flaw, nearest
 from rosbeat.diagnosis.programs import meaning_of_output
 
@@ -1119,7 +1120,43 @@ def _in_a_node(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     return found if found and (seen.about_ros or found.mistake in _PLAIN) else None
 
 
+def _hidden_module(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
+    """Recognise a file that hides a module: beside the program, or where it was started."""
+    scripts = [call.place / word for word in call.words if word.endswith(".py")]
+    of_packages = [one.folder for one in seen.packages] if call.words[0] == "colcon" else []
+    folders = [*(one.parent for one in scripts), call.place, *of_packages]
+    return about_hidden(seen.text, [one.resolve() for one in folders])
+
+
+def _neighbor_module(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    """Recognise the import of a file of a package without the package's name."""
+    return about_neighbor(
+        seen.error, [(one.name, module) for one in seen.packages for module in one.modules]
+    )
+
+
+def _not_built_yet(seen: Situation, _: Call, found: Found) -> Diagnosis | None:
+    """Recognise a module that is in the source of a package, and in no build of it."""
+    package = seen.package(found[1])
+    if package is None or found[2] not in package.modules:
+        return None
+    return Diagnosis(
+        "not-rebuilt",
+        f"{found[2]}.py is in the package {found[1]}, but not in the build that was started.",
+        _AGAIN,
+    )
+
+
+def _from_elsewhere(_: Situation, __: Call, found: Found) -> Diagnosis | None:
+    return about_name(found[1])
+
+
 _LOADING_RULES = (
+    Rule(f"{PYTHON}|colcon build", "module|import name", _hidden_module),
+    Rule(PYTHON, r"No module named '(\w+)\.(\w+)'", _not_built_yet),
+    Rule(PYTHON, "No module named", _neighbor_module),
+    Rule(PYTHON, r"No module named '([\w.]+)'", _from_elsewhere),
+    Rule("ros2", r"Package '([^']+)' not found", _from_elsewhere),
     Row("other-python", PYTHON, "",
         "The program ran with another Python than the course's, and that Python has no ROS.",
         "`which python3` shows which Python a terminal uses. Open a terminal from the course, or "
