@@ -106,7 +106,7 @@ def _explained(
     from IPython.core.error import UsageError
 
     if isinstance(error, UsageError):
-        return _about_magic(str(error))
+        return _about_magic(str(error), _raw_cell(shell))
     if isinstance(error, RosbeatError):
         return None
     unread = getattr(error, "of_text", error)  # `%%save` reads the text of a file
@@ -128,10 +128,10 @@ def _explained(
     return _known(error, line, code) or _UNKNOWN
 
 
-def _about_magic(text: str) -> tuple[str, str] | None:
+def _about_magic(text: str, cell: str) -> tuple[str, str] | None:
     """Return the same for a command of the notebook that does not exist."""
     found = re.search(r"magic(?: function)? `%+(\w+)` not found", text)
-    if found is None:
+    if found is None or f"%{found[1]}" not in cell:
         return None
     near = get_close_matches(found[1].lower(), _MAGICS, 1)
     to_try = f"Did you mean `%%{near[0]}`?" if near else "Those of the course are `%%terminal` "
@@ -160,9 +160,15 @@ def _about_constant(name: str | None) -> tuple[str, str] | None:
 
 
 def _cell_of(shell: InteractiveShell) -> str:
-    """Return the text of the cell that ran last; empty if it begins with a magic."""
+    """Return the text of the cell that runs; empty if it begins with a magic."""
+    cell = _raw_cell(shell)
+    return "" if cell.startswith("%") else cell
+
+
+def _raw_cell(shell: InteractiveShell) -> str:
+    """Return the text of the cell that runs, with its magics."""
     cells = shell.history_manager.input_hist_raw if shell.history_manager else [""]
-    return "" if cells[-1].startswith("%") else str(cells[-1])
+    return str(cells[-1])
 
 
 def _about_name(shell: InteractiveShell, error: NameError) -> tuple[str, str] | None:
@@ -182,10 +188,10 @@ def _about_name(shell: InteractiveShell, error: NameError) -> tuple[str, str] | 
 def _about_files(error: Exception) -> tuple[str, str] | None:
     """Return the same for a module that a file of the learner's hides, or that is one itself."""
     from rosbeat.diagnosis.modules import about_hidden, about_neighbor
-    from rosbeat.workspace.location import workspace
 
     then = "Then restart the kernel, which has loaded the file already: Kernel, Restart Kernel."
-    files = (workspace() / "src").glob("*/*/*.py") if "No module" in str(error) else ()
+    # A workspace lies beside the pages.
+    files = Path.cwd().glob("*/src/*/*/*.py") if "No module" in str(error) else ()
     found = about_hidden(str(error), [Path.cwd()], then) or about_neighbor(
         str(error), [(file.parent.name, file.stem) for file in files]
     )

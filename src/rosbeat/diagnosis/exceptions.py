@@ -1040,7 +1040,8 @@ _VALUE_RULES: tuple[Rule, ...] = (
         r"^TypeError: (?:\w+\.)*(?!__init__)(\w+)\(\) missing \d required positional .+?: (.+)",
         "{1} was called without {2}, which it needs.",
         "How many values does {1} take, and how many are there between its parentheses?",
-        when=lambda fault, found: f"{found[1]}(" in fault.code and not called_by_ros(fault)),
+        when=lambda fault, found: bool(
+            re.search(rf"\b(?:random|math|statistics|time)\.{found[1]}\(", fault.code))),
     Row("constructor-parameters", r"__init__\(\) missing \d .*?arguments?: (.+)",
         "The constructor requires {1}, but the class is called without arguments.",
         "A session calls your class without arguments, so the constructor's only parameter "
