@@ -350,6 +350,11 @@ def _called_with_others(fault: Fault) -> Diagnosis | None:
         f"A timer calls its callback without arguments. {_HANDED_ONE} {_HANDED_TWO} Which of "
         f"them is {name}?"
     )
+    if matched(fault, r"missing 1 required positional argument: '(?:msg|message)'$"):
+        to_try = (
+            "A timer calls its callback without arguments, and a subscription with the message. "
+            f"{name} takes a message: does the constructor hand it to create_subscription?"
+        )
     if found[2] == "takes 0":
         means = f"{name} {_NO_SELF}"
         to_try = _OTHER_DEFS
@@ -842,6 +847,11 @@ def _about(name: str, meant: str) -> str:
         )
     if meant and meant != name:
         return f"There is a similar name, {meant}. Compare the two letter by letter."
+    if name in MESSAGES:
+        return (
+            f"{name} is a type of message, and the imports at the top don't include it. Is it the "
+            "type that is asked for? If so, import it; if not, name the right one."
+        )
     if name in _IMPORTED:
         return "This name comes from a package. Do the imports at the top include it?"
     return (
@@ -876,15 +886,22 @@ def _no_such_attribute(fault: Fault) -> Diagnosis | None:
         return None
     owner, name = found[1] or found[2] or found[3], found[4]
     meant = _meant(fault, owner, name)
-    if meant:
+    # `status` is not a `status_pub` with letters wrong.
+    if meant and abs(len(meant.removeprefix("self.")) - len(name)) < _LONGER:
         plain = meant.removeprefix("self.").lower()
         alike = get_close_matches(name.lower(), [plain], 1, 0.7)
         return Diagnosis(
             "wrong-attribute",
             f"{owner} has no attribute {name}; it has {meant}.",
-            "Compare the two letter by letter." if alike else "Is that the one you mean?",
+            "Compare the two letter by letter."
+            if alike and not plain.startswith(name.lower())
+            else f"Is that the one you mean? If not, {name} has to be assigned first.",
         )
     return Diagnosis("wrong-attribute", f"{owner} has no attribute {name}.", _where(fault, found))
+
+
+#: Letters by which a name is longer than another that was not meant.
+_LONGER = 3
 
 
 def _meant(fault: Fault, owner: str, name: str) -> str:

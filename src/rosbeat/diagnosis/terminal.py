@@ -454,8 +454,13 @@ def _cd_with_a_blank_too_many(_: Situation, call: Call, __: Found) -> Diagnosis:
 def _cd_failed(seen: Situation, call: Call, found: Found) -> Diagnosis:
     path = found[1].strip()
     if _nothing_at_the_top(path):
-        hint = f"write  cd ~/{shlex.quote(path.strip('/'))}"
-        return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your home folder is `~`: {hint}")
+        below = path.strip("/")
+        hint = "A path that begins with a name, without `/`, starts in the current folder."
+        if (seen.home / below).is_dir():
+            hint = f"Your home folder is `~`: write  cd ~/{shlex.quote(below)}"
+        elif (seen.workspace / below).is_dir():
+            hint = f"Your workspace has a folder of that name:  {_way_to(below)}"
+        return Diagnosis("tilde-missing", f"{path} {_TOP}.", hint)
     where = "" if path.startswith("/") else " in the current folder"
     meant = _near(call.place, path, folders=True)
     hint = "`pwd` shows the current folder, and `ls` lists its content."

@@ -346,8 +346,13 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
         return "word-missing", ("A path alone isn't a command. Which command changes the folder?")
     if first not in ("cd", "pushd"):
         return ("command-misspelled" if alike(first, "cd") else UNKNOWN), _UPWARDS
+    if not rest:
+        return "word-missing", "`cd` alone goes to your home folder. Write the path behind it."
+    if rest[0] == first:
+        return "word-misspelled", f"`{first}` stands there twice. Once is enough."
     if len(rest) > 1 and not rest[0].startswith("-"):
-        return "space-too-many", "A path contains no spaces: `/` joins its parts."
+        hint = "`cd` takes one path: `/` joins its parts, with no spaces between them."
+        return "space-too-many", hint
     if _is_absolute(rest):
         return "absolute-path", _RELATIVE
     # Where the path leads from the start, whether there is such a folder or not.
