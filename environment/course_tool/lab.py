@@ -20,6 +20,8 @@ from course_tool.problems import Problem, last_lines, say
 
 _TERMINALS = "--ServerApp.terminado_settings"
 _FOLDERS = ("--ServerApp.root_dir", "--ServerApp.notebook_dir", "--notebook-dir")
+#: So the buttons of a check can ask JupyterLab to run its cells, and to save the page.
+_EXPOSED = "--LabApp.expose_app_in_browser"
 #: Where `custom.css` is: narrower launcher, wider file browser, solutions in another colour.
 _STYLE = Path(__file__).parents[1] / "lab_style"
 #: Seconds that JupyterLab gets to end its kernels and terminals.
@@ -147,6 +149,8 @@ def lab_options(layout: Layout, options: Sequence[str], root_user: bool) -> list
         command.append(f"{_TERMINALS}={ {'shell_command': commands.interactive_shell()}!r}")
     # Open tabs are remembered by their paths, which in another folder would be those of no file.
     command += [f"--LabApp.workspaces_dir={layout.notes / 'workspaces'}"]
+    if not any(option.startswith(_EXPOSED) for option in options):
+        command.append(f"{_EXPOSED}=True")
     command += ["--LabApp.custom_css=True"]
     command += [f"--ServerApp.tornado_settings={ {'static_custom_path': [str(_STYLE)]}!r}"]
     if not elsewhere and not any(option.endswith(".ipynb") for option in options):

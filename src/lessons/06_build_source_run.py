@@ -161,14 +161,15 @@ predict("yes", workspace.terminal("monitor").busy)
 #
 # When the monitor starts, it logs *Temperature Monitor Node Started*. Let it log *Temperature Monitor Version 2*
 # instead. You could change the file in an editor; here, `sed -i` does it: `s/old/new/` replaces the old text with
-# the new one. Fill in the words that replace *Node Started*.
+# the new one, and `.*` stands for any words, so the cell works again after a first try. Fill in the words that
+# replace *Node Started*.
 
 # %% terminal="build" exercise="06a"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # --- answer
-# sed -i 's/Node Started/Version 2/' temperature_subscriber.py
+# sed -i 's/Monitor .*"/Monitor Version 2"/' temperature_subscriber.py
 # --- blank
-# # sed -i 's/Node Started/____/' temperature_subscriber.py
+# # sed -i 's/Monitor .*"/Monitor ____"/' temperature_subscriber.py
 # --- end
 
 # %% check="06a"

@@ -77,6 +77,21 @@ class RosbeatError(Exception):
         return f"{type(self).__name__}: {self}".splitlines()
 
 
+def explain_interrupt(
+    interrupt: KeyboardInterrupt, what: str, means: str = "", to_try: str = ""
+) -> None:
+    """Let IPython show the three parts of an error for an interrupt, and no stack.
+
+    Args:
+        interrupt: The interrupt.
+        what: What it stopped, in one sentence.
+        means: What that means here.
+        to_try: What to do about it.
+    """
+    lines = f"KeyboardInterrupt: {RosbeatError(what, means, to_try)}".splitlines()
+    interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's protocol
+
+
 class SessionError(RosbeatError):
     """Signal that a session cannot do what it was asked to do."""
 

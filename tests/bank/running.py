@@ -67,20 +67,20 @@ def told(answer: Answer, workspace: Path, seed: int = PAGE, *, patient: bool = F
     """
     if answer.exercise in workspaces.EXERCISES:
         return workspaces.outcome_of(answer, workspace)
-    with _hurried(answer, patient):
+    with hurried(answer, patient):
         return outcome_of(answer.exercise, answer.text, answer.subject, seed)
 
 
 def observed(answer: Answer) -> Any:
     """Return what is seen of an answer that is a cell, fed with the page's inputs."""
-    with _hurried(answer), warnings.catch_warnings():
+    with hurried(answer), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         space = namespace_of(answer.exercise, answer.text, f"<cell of {answer.exercise}>")
         return EXERCISES[answer.exercise].observed(eval(answer.subject, space))
 
 
 @contextmanager
-def _hurried(answer: Answer, patient: bool = False) -> Iterator[None]:
+def hurried(answer: Answer, patient: bool = False) -> Iterator[None]:
     """Wait for an answer that does not end only as long as is needed to tell."""
     usual = observe.__kwdefaults__
     assert usual is not None

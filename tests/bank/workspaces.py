@@ -13,7 +13,7 @@ from rosbeat.workspace.prerequisites import FOLDERS, NODES, PACKAGE, finished
 from rosbeat.workspace.terminals.environment import program_environment
 
 _SOURCE, _INSTALLED = f"src/{PACKAGE}", f"install/{PACKAGE}"
-_SETUP_CFG = (
+SETUP_CFG = (
     f"[develop]\nscript_dir=$base/lib/{PACKAGE}\n[install]\ninstall_scripts=$base/lib/{PACKAGE}\n"
 )
 _LIBRARY = f"{_INSTALLED}/lib/python3.11/site-packages"
@@ -109,7 +109,7 @@ class Desk:
         if with_package:
             for name in ("package.xml", "setup.py", *(f"{PACKAGE}/{node}.py" for node in NODES)):
                 self.write(f"{_SOURCE}/{name}", finished(name))
-            self.write(f"{_SOURCE}/setup.cfg", _SETUP_CFG)
+            self.write(f"{_SOURCE}/setup.cfg", SETUP_CFG)
             self.write(f"{_SOURCE}/resource/{PACKAGE}", "")
             self.write(f"{_SOURCE}/{PACKAGE}/__init__.py", "")
 
@@ -118,7 +118,7 @@ class Desk:
         folder = f"src/{package}"
         manifest = finished("package.xml").replace(PACKAGE, package)
         self.write(f"{folder}/package.xml", manifest)
-        self.write(f"{folder}/setup.cfg", _SETUP_CFG.replace(PACKAGE, package))
+        self.write(f"{folder}/setup.cfg", SETUP_CFG.replace(PACKAGE, package))
         self.write(f"{folder}/resource/{package}", "")
         for name in ("__init__", *programs):
             self.write(f"{folder}/{package}/{name}.py", "def main():\n    pass\n")

@@ -45,7 +45,7 @@ def test_the_outcomes_are_those_of_the_page_and_the_end_is_1(saved, capsys):
     assert [one["exercise"] for one in (a, b, c)] == ["03a", "03b", "03c"]
     assert [one["status"] for one in (a, b, c)] == ["failed", "not attempted", "failed"]
     assert a["outcome"]["mistake"]
-    assert "Mistake:" in a["text"]
+    assert "Hint:" in a["text"]
     assert "Python says: " in c["text"]
 
 

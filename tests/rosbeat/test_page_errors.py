@@ -85,9 +85,9 @@ def test_a_misspelled_name_is_compared_with_the_names_of_the_page(shown):
 
 
 @pytest.mark.parametrize(("cell", "said"), [
-    ("print('hello'", "Python can't read this cell"),
-    ("def f():\nreturn 1", "the spaces at the beginning of a line"),
-    ("class A\n    pass", "a colon may be missing"),
+    ("print('hello'", "The bracket `(` is opened here"),
+    ("def f():\nreturn 1", "the line below it is not indented"),
+    ("class A\n    pass", "A colon is missing"),
     ("def f():\n    a = b\n    b = 1\nf()", "b has no value yet at this line."),
     ("from std_msgs.msg import Float32\nFloat32().dat", "A Float32 has no field called dat."),
     ("from std_msgs.msg import Flot32", "Float32"),
@@ -136,3 +136,25 @@ def test_a_handler_that_was_there_stays(shown):
     mine = "def mine(shell, kind, error, trace, tb_offset=None):\n    print('mine:', error)"
     install = "get_ipython().set_custom_exc((NameError,), mine)"
     assert "mine: name 'nothing' is not defined" in shown(mine, install, IMPORTS, "nothing")
+
+
+HIDDEN = """
+import os, pathlib, sys, tempfile
+os.chdir(tempfile.mkdtemp())
+sys.path.insert(0, "")
+sys.modules.pop("colorsys", None)
+pathlib.Path("colorsys.py").touch()
+module = pathlib.Path("ROS2_and_RL_Tutorials/src/sensors/sensors/helper.py")
+module.parent.mkdir(parents=True)
+module.touch()
+"""
+
+
+@pytest.mark.parametrize(("cell", "said"), [
+    ("import colorsys\ncolorsys.rgb_to_hsv(1, 1, 1)", "Your own file colorsys.py, in the folder"),
+    ("import colorsys\ncolorsys.rgb_to_hsv(1, 1, 1)", "such as my_colorsys.py. Then restart"),
+    ("from helper import limit", "helper.py is there, in the package sensors"),
+    ("from helper import limit", "Write `from sensors.helper import ...`"),
+])  # fmt: skip
+def test_a_file_in_the_way_or_out_of_reach_is_named(cell, said, shown):
+    assert said in shown(IMPORTS, HIDDEN, cell)

@@ -120,7 +120,8 @@ ORDER = {
 }
 #: What belongs in each place.
 KINDS = {
-    "topic": "A topic name is a string, so write it in quotes.",
+    "topic": "A topic name is a string in quotes. A number in its place belongs to another "
+    "argument.",
     "callback": "A callback is a function or a method. Give its name without quotes or "
     "parentheses.",
     "depth": "The queue depth is a whole number, 1 or more, without quotes.",
@@ -158,6 +159,8 @@ def _missing(call: FailedCall, left: list[_Parameter]) -> Diagnosis | None:
     words = " and ".join(one.words for one in missing[:lacking])
     name = _MISSING.get(missing[0].role, "argument-missing") if lacking == 1 else "argument-missing"
     asks = " What is the last one for?" if name == "depth-missing" else ""
+    if name == "callback-missing" and call.method == "create_subscription":
+        asks = " To send messages, a node creates a publisher instead."
     means = f"{call.method} was called without {words}."
     return Diagnosis(name, means, ORDER[call.method] + asks)
 

@@ -17,6 +17,7 @@ from difflib import get_close_matches
 from rosbeat.diagnosis import calls
 from rosbeat.diagnosis.calls import MESSAGES, article, called_by_ros, matched
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.modules import about_name, about_relative
 from rosbeat.records import Fault
 
 #: A rule knows one kind of mistake, and answers None if an exception is none of its kind.
@@ -349,6 +350,11 @@ def _called_with_others(fault: Fault) -> Diagnosis | None:
         f"A timer calls its callback without arguments. {_HANDED_ONE} {_HANDED_TWO} Which of "
         f"them is {name}?"
     )
+    if matched(fault, r"missing 1 required positional argument: '(?:msg|message)'$"):
+        to_try = (
+            "A timer calls its callback without arguments, and a subscription with the message. "
+            f"{name} takes a message: does the constructor hand it to create_subscription?"
+        )
     if found[2] == "takes 0":
         means = f"{name} {_NO_SELF}"
         to_try = _OTHER_DEFS
@@ -841,6 +847,11 @@ def _about(name: str, meant: str) -> str:
         )
     if meant and meant != name:
         return f"There is a similar name, {meant}. Compare the two letter by letter."
+    if name in MESSAGES:
+        return (
+            f"{name} is a type of message, and the imports at the top don't include it. Is it the "
+            "type that is asked for? If so, import it; if not, name the right one."
+        )
     if name in _IMPORTED:
         return "This name comes from a package. Do the imports at the top include it?"
     return (
@@ -875,15 +886,22 @@ def _no_such_attribute(fault: Fault) -> Diagnosis | None:
         return None
     owner, name = found[1] or found[2] or found[3], found[4]
     meant = _meant(fault, owner, name)
-    if meant:
+    # `status` is not a `status_pub` with letters wrong.
+    if meant and abs(len(meant.removeprefix("self.")) - len(name)) < _LONGER:
         plain = meant.removeprefix("self.").lower()
         alike = get_close_matches(name.lower(), [plain], 1, 0.7)
         return Diagnosis(
             "wrong-attribute",
             f"{owner} has no attribute {name}; it has {meant}.",
-            "Compare the two letter by letter." if alike else "Is that the one you mean?",
+            "Compare the two letter by letter."
+            if alike and not plain.startswith(name.lower())
+            else f"Is that the one you mean? If not, {name} has to be assigned first.",
         )
     return Diagnosis("wrong-attribute", f"{owner} has no attribute {name}.", _where(fault, found))
+
+
+#: Letters by which a name is longer than another that was not meant.
+_LONGER = 3
 
 
 def _meant(fault: Fault, owner: str, name: str) -> str:
@@ -922,7 +940,9 @@ def _not_importable(fault: Fault) -> Diagnosis | None:
         return Diagnosis("not-importable", f"{name[2]} has no {name[1]}.{meant}", hint)
     module = matched(fault, r"No module named '([\w.]+)'")
     if not module:
-        return None
+        return about_relative(fault.text)
+    if known := about_name(module[1]):
+        return known
     near = get_close_matches(module[1], _KNOWN_MODULES, 1, 0.7)
     meant = f" There is {near[0]}." if near and near[0] != module[1] else ""
     hint = "Compare the module's name letter by letter with the imports on the page."
@@ -1013,6 +1033,9 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "Which name on this line is before the parentheses? A function of a module or an object "
         "comes after a dot; a value takes no parentheses.",
         when=lambda fault, _: not called_by_ros(fault)),
+    Row("text-and-number", r"could not convert string to float: '(-?\d+),(\d+)'",
+        "'{1},{2}' is no number for Python: a comma separates values.",
+        "The decimal sign is a point: {1}.{2}"),
     Row("division-by-zero", r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
         "This line divides by zero, for example by the length of a list that is still empty.",
         "How many readings are there at the first call?"),
@@ -1030,6 +1053,12 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "{1} requires {2}, but is called without arguments.",
         "Look at the line that begins with def {1}: which parameters does it have besides self?",
         when=lambda fault, found: f"self.{found[1]}()" in fault.code),
+    Row("argument-missing",
+        r"^TypeError: (?:\w+\.)*(?!__init__)(\w+)\(\) missing \d required positional .+?: (.+)",
+        "{1} was called without {2}, which it needs.",
+        "How many values does {1} take, and how many are there between its parentheses?",
+        when=lambda fault, found: bool(
+            re.search(rf"\b(?:random|math|statistics|time)\.{found[1]}\(", fault.code))),
     Row("constructor-parameters", r"__init__\(\) missing \d .*?arguments?: (.+)",
         "The constructor requires {1}, but the class is called without arguments.",
         "A session calls your class without arguments, so the constructor's only parameter "

@@ -15,6 +15,7 @@ from itertools import pairwise
 from rosbeat.diagnosis.calls import matched, written_call
 from rosbeat.diagnosis.exceptions import diagnosed, meaning_of
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.syntax import diagnose_syntax
 from rosbeat.records import Fault, called_callback, is_argument
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
@@ -135,6 +136,8 @@ def _unreadable(fault: Fault) -> Diagnosis | None:
     if fault.kind not in _UNREADABLE:
         return None
     said = fault.text.split("\n")[0].split(" (")[0]
+    if known := diagnose_syntax(said, fault.code):
+        return known
     return Diagnosis(
         "syntax-error",
         f"Python cannot read the file: {said or 'something is missing'}.",

@@ -19,6 +19,7 @@ from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.modules import about_hidden, about_name, about_neighbor
 from rosbeat.diagnosis.packages import BROKEN, NO_CALL, Package, diagnose_flaw, nearest
 from rosbeat.diagnosis.programs import meaning_of_output
 
@@ -453,8 +454,13 @@ def _cd_with_a_blank_too_many(_: Situation, call: Call, __: Found) -> Diagnosis:
 def _cd_failed(seen: Situation, call: Call, found: Found) -> Diagnosis:
     path = found[1].strip()
     if _nothing_at_the_top(path):
-        hint = f"write  cd ~/{shlex.quote(path.strip('/'))}"
-        return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your home folder is `~`: {hint}")
+        below = path.strip("/")
+        hint = "A path that begins with a name, without `/`, starts in the current folder."
+        if (seen.home / below).is_dir():
+            hint = f"Your home folder is `~`: write  cd ~/{shlex.quote(below)}"
+        elif (seen.workspace / below).is_dir():
+            hint = f"Your workspace has a folder of that name:  {_way_to(below)}"
+        return Diagnosis("tilde-missing", f"{path} {_TOP}.", hint)
     where = "" if path.startswith("/") else " in the current folder"
     meant = _near(call.place, path, folders=True)
     hint = "`pwd` shows the current folder, and `ls` lists its content."
@@ -552,6 +558,44 @@ def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
     )
 
 
+#: `s/old/new/` of sed, with any sign between its parts, for all lines or for some.
+_SUBSTITUTION = re.compile(r"(?:/[^/]*/)?\s*s([^\w\s\\])(.+?)\1([^&\\]*?)\1[gIip0-9]*")
+
+
+def substitution(words: Iterable[str]) -> tuple[str, str] | None:
+    """Return what a `sed` replaces, and by what; None if it does anything else.
+
+    Args:
+        words: The words of the command.
+    """
+    scripts = [found for word in words if (found := _SUBSTITUTION.fullmatch(word))]
+    return (scripts[0][2], scripts[0][3]) if len(scripts) == 1 else None
+
+
+def writes_file(words: Iterable[str]) -> bool:
+    """Return whether a `sed` writes the changed text into the file.
+
+    Args:
+        words: The words of the command.
+    """
+    return any(re.match(r"-[a-zA-Z]*i|--in-place", word) for word in words)
+
+
+def _nothing_replaced(_: Situation, call: Call, __: Found) -> Diagnosis | None:
+    """Recognise a `sed -i` that found nothing: what it writes is not in the file afterwards."""
+    made, path = substitution(call.words), call.place / call.words[-1]
+    if made is None or not made[1] or not writes_file(call.words) or not path.is_file():
+        return None
+    if made[1] in path.read_text(encoding="utf-8", errors="replace"):
+        return None
+    return Diagnosis(
+        "nothing-replaced",
+        f"`sed` found nothing to replace: no line of {call.words[-1]} matches `{made[0]}`, so the "
+        "file is as it was.",
+        f"`cat {shlex.quote(call.words[-1])}` shows what it says now. Compare, letter by letter.",
+    )
+
+
 _COMMAND_RULES = (
     Row("dot-slash-missing", "{1}", _not_found(),
         "{1} is in this folder, but the shell does not search the current folder for programs:",
@@ -573,6 +617,7 @@ _COMMAND_RULES = (
     Rule("{1}", _not_found(), _misspelt),
 )  # fmt: skip
 _FILE_RULES: Rules = (
+    Rule("sed", r"\A\s*\Z", _nothing_replaced),
     Rule("chmod", r"^chmod: cannot access '([^']+)': No such file", _no_such_file),
     Row("word-misspelled", "chmod", r"^chmod: invalid mode: ",
         "`chmod` does not understand its first argument.",
@@ -849,7 +894,23 @@ def _is_python(_: Situation, package: Package) -> bool:
     return package.manifest.build_type == "ament_python"
 
 
+def _stray_manifest(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    """Recognise a `package.xml` that makes one package of a folder that holds several."""
+    above = (seen.workspace, seen.workspace / "src")
+    strays = [one.folder for one in seen.packages if one.folder in above]
+    if not strays:
+        return None
+    path = (strays[0] / "package.xml").relative_to(seen.workspace)
+    return Diagnosis(
+        "wrong-folder",
+        f"There is a {path} in your workspace, so colcon takes {path.parent.name or 'all of it'} "
+        "for one package and finds none of the packages below.",
+        f'Each package has its own package.xml. Remove this one: rm "${VARIABLE}"/{path}',
+    )
+
+
 _BUILD_RULES = (
+    Rule("colcon (?:build|list|test)", "", _stray_manifest),
     Row("wrong-folder", _BUILD, "",
         "You ran the build inside the folder {here}, so build, install and log are there now "
         "instead of in the workspace.",
@@ -1064,7 +1125,43 @@ def _in_a_node(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     return found if found and (seen.about_ros or found.mistake in _PLAIN) else None
 
 
+def _hidden_module(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
+    """Recognise a file that hides a module: beside the program, or where it was started."""
+    scripts = [call.place / word for word in call.words if word.endswith(".py")]
+    of_packages = [one.folder for one in seen.packages] if call.words[0] == "colcon" else []
+    folders = [*(one.parent for one in scripts), call.place, *of_packages]
+    return about_hidden(seen.text, [one.resolve() for one in folders])
+
+
+def _neighbor_module(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    """Recognise the import of a file of a package without the package's name."""
+    return about_neighbor(
+        seen.error, [(one.name, module) for one in seen.packages for module in one.modules]
+    )
+
+
+def _not_built_yet(seen: Situation, _: Call, found: Found) -> Diagnosis | None:
+    """Recognise a module that is in the source of a package, and in no build of it."""
+    package = seen.package(found[1])
+    if package is None or found[2] not in package.modules:
+        return None
+    return Diagnosis(
+        "not-rebuilt",
+        f"{found[2]}.py is in the package {found[1]}, but not in the build that was started.",
+        _AGAIN,
+    )
+
+
+def _from_elsewhere(_: Situation, __: Call, found: Found) -> Diagnosis | None:
+    return about_name(found[1])
+
+
 _LOADING_RULES = (
+    Rule(f"{PYTHON}|colcon build", "module|import name", _hidden_module),
+    Rule(PYTHON, r"No module named '(\w+)\.(\w+)'", _not_built_yet),
+    Rule(PYTHON, "No module named", _neighbor_module),
+    Rule(PYTHON, r"No module named '([\w.]+)'", _from_elsewhere),
+    Rule("ros2", r"Package '([^']+)' not found", _from_elsewhere),
     Row("other-python", PYTHON, "",
         "The program ran with another Python than the course's, and that Python has no ROS.",
         "`which python3` shows which Python a terminal uses. Open a terminal from the course, or "

@@ -258,7 +258,11 @@ class Cells:
         raw, space = str(result.info.raw_cell), self._shell.user_ns
         error = result.error_before_exec or result.error_in_exec
         line = _line(error, space) if error is not None else 0
-        run = replace(run, bound=_bound(self._shell.transform_cell(raw), error, line))
+        try:
+            source = self._shell.transform_cell(raw)
+        except SyntaxError:  # indentation that fits no block
+            source = raw
+        run = replace(run, bound=_bound(source, error, line))
         file = _file_of(raw)
         blank = isinstance(error, NameError) and getattr(error, "name", "") == "____"
         blank = blank or (file is not None and bool(_BLANK.search(raw)))

@@ -6,21 +6,23 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, TypeAlias
 from uuid import uuid4
 
+from IPython import get_ipython
 from IPython.display import display, update_display
 
-from rosbeat.errors import ExerciseError, called_as
+from rosbeat.errors import ExerciseError, called_as, explain_interrupt
 from rosbeat.exercises.cells import NOTHING, Cells, Shell, cells_of, worked_on
 from rosbeat.exercises.exercise import PASSED, Exercise, not_attempted
-from rosbeat.exercises.hint import are_here, next_hint, reveal
-from rosbeat.exercises.outcome_display import LOOKS, Shown, words
+from rosbeat.exercises.hint import may_reveal, next_hint, reveal
+from rosbeat.exercises.outcome_display import LOOKS, Shown, output_of, words
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
-from rosbeat.exercises.scenarios import Answer
+from rosbeat.exercises.scenarios import Answer, overheard
 from rosbeat.exercises.share import share
 from rosbeat.records import Outcome
 from rosbeat.workspace.busy_notice import counting
@@ -65,15 +67,16 @@ def check(exercise: str = "", answer: Answer = NOTHING) -> Shown | HandedOver:
     if outside is not None:
         outside(found, answer)
         return HandedOver(found.id)
-    outcome, picture = _judge(found, answer, cells)
+    judged = _judge(found, answer, cells)
     execution = os.environ.get(GRADED, "")
     if execution:
-        return for_nbgrader(outcome, execution)
-    if picture is not None:
-        display(picture)
-    if cells is None or not cells.for_a_browser:
-        return Shown(outcome)
-    return CheckCard(outcome, lambda: _judge(found, _current(found, cells), cells)[0])
+        return for_nbgrader(judged.outcome, execution)
+    if cells is not None and cells.for_a_browser:
+        again = partial(_judge_again, found, cells)
+        return CheckCard(judged.outcome, judged.output, picture=judged.picture, judge=again)
+    if judged.picture is not None:
+        display(judged.picture)
+    return Shown(judged.outcome, judged.output)
 
 
 def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
@@ -92,25 +95,57 @@ def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
     return answer
 
 
-def _judge(
-    found: Exercise[Any], answer: Answer, cells: Cells | None
-) -> tuple[Outcome, Picture | None]:
-    """Judge an answer, remember the outcome, and return it with what there is to see.
+@dataclass(frozen=True)
+class Judged:
+    """Hold what came of a check.
+
+    Attributes:
+        outcome: The outcome.
+        picture: What there is to see; None for nothing.
+        output: What the answer printed and logged, as `Shown` takes it.
+    """
+
+    outcome: Outcome
+    picture: Picture | None = None
+    output: tuple[tuple[str, str], ...] = ()
+
+
+def _judge_again(found: Exercise[Any], cells: Cells) -> Judged:
+    return _judge(found, _current(found, cells), cells)
+
+
+def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Judged:
+    """Judge an answer, remember the outcome, and return what came of it.
 
     Raises:
         ExerciseError: If the cell above did not run, so that the answer is an earlier one.
+        KeyboardInterrupt: If Interrupt was pressed.
     """
     is_blank = cells is not None and cells.refuse_stale(found.id)
     picture = None
+    output: tuple[tuple[str, str], ...] = ()
     if is_blank:
         verdict = found.outcome(not_attempted())
     else:
-        with counting(f"checking exercise {found.id}"):
-            seen = found.observed(answer)
-            verdict, picture = found.judged(seen), found.picture(seen)
+        try:
+            with counting(f"checking exercise {found.id}"), overheard() as printed:
+                seen = found.observed(answer)
+                verdict, picture = found.judged(seen), found.picture(seen)
+        except KeyboardInterrupt as interrupt:
+            explain_interrupt(
+                interrupt,
+                f"you stopped the check of exercise {found.id}.",
+                "There is no verdict; what an earlier check said still counts, and your answer is "
+                "unchanged.",
+                "Run the check again. If it seemed to take for ever, look for a loop in your "
+                "answer that doesn't end.",
+            )
+            raise
+        output = output_of(seen, printed, verdict.status)
     standing = progress_file().change(found.id, lambda before: before.after(verdict))
     share(verdict)
-    return (_with_hints(verdict, standing.hints) if found.tells_hints else verdict), picture
+    verdict = _with_hints(verdict, standing.hints) if found.tells_hints else verdict
+    return Judged(verdict, picture, output)
 
 
 def _with_hints(outcome: Outcome, hints: int) -> Outcome:
@@ -127,10 +162,14 @@ class CheckCard(Shown):
     shows, and the buttons keep the focus while it changes.
 
     Attributes:
-        judge: Judges the answer as it is now, and remembers the outcome.
+        picture: What there is to see above the card; None for nothing.
+        judge: Judges the answer as it is now, and remembers the outcome; None if nobody can.
     """
 
-    judge: Callable[[], Outcome]
+    picture: Picture | None = None
+    judge: Callable[[], Judged] | None = None
+
+    _has_buttons = True
 
     def _ipython_display_(self) -> None:
         # The widgets take a while to load, and only a notebook in a browser shows them.
@@ -138,25 +177,46 @@ class CheckCard(Shown):
 
         exercise, display_id = self.outcome.exercise, f"rosbeat-check-{uuid4().hex}"
 
+        def show(judged: Judged, how: Callable[..., object]) -> None:
+            if self.picture is not None:  # there is a place for one
+                picture = {"text/plain": ""} if judged.picture is None else _bundle(judged.picture)
+                how(picture, raw=True, display_id=f"{display_id}-picture")
+            card = replace(self, outcome=judged.outcome, output=judged.output)
+            how(card._repr_mimebundle_(), raw=True, display_id=display_id)
+
         def again(_: object) -> str:
-            outcome = self.judge()
-            update_display(Shown(outcome)._repr_mimebundle_(), raw=True, display_id=display_id)
-            buttons.passed = outcome.status == PASSED
-            _, word = LOOKS[outcome.status]
+            if self.judge is None:
+                return ""
+            judged = self.judge()
+            show(judged, update_display)
+            buttons.passed = judged.outcome.status == PASSED
+            buttons.has_answer = may_reveal(exercise)
+            _, word = LOOKS[judged.outcome.status]
             # A page that was loaded anew since then does not find the card.
-            return words(f"Checked the cell above as it last ran: {word}. {outcome.evidence}")
+            return words(f"Checked the cell above as it last ran: {word}.")
+
+        def one_more_hint(_: object) -> str:
+            shown = next_hint(exercise)
+            buttons.has_answer = may_reveal(exercise)
+            return shown.html()
 
         actions = {
-            "hint": lambda _: next_hint(exercise).html(),
+            "hint": one_more_hint,
             "answer": lambda _: reveal(exercise).html(),
             "again": again,
         }
-        display(self._repr_mimebundle_(), raw=True, display_id=display_id)
+        show(Judged(self.outcome, self.picture, self.output), display)
         is_passed = self.outcome.status == PASSED
         buttons = ExerciseWidget(
-            actions, "check", exercise=exercise, passed=is_passed, has_answer=are_here()
+            actions, "check", exercise=exercise, passed=is_passed, has_answer=may_reveal(exercise)
         )
         buttons.show()
+
+
+def _bundle(picture: Picture) -> dict[str, Any]:
+    """Return a picture in the forms in which Jupyter shows it."""
+    data, _ = get_ipython().display_formatter.format(picture)
+    return dict(data)
 
 
 # Where a page is graded, the judge is elsewhere: what is observed here is handed out.

@@ -34,6 +34,16 @@ def are_here() -> bool:
     return (files("rosbeat.exercises") / _FOLDER).is_dir()
 
 
+def may_reveal(exercise: str) -> bool:
+    """Return whether the answer is offered: after a try that was judged, or a hint.
+
+    Args:
+        exercise: The exercise's id.
+    """
+    standing = progress_file().standings().get(exercise, Standing())
+    return are_here() and bool(standing.attempts or standing.hints or standing.answer)
+
+
 # `hint`: help with an exercise, one step at a time, the answer last.
 
 #: Where there are no answers, as in what an instructor releases to a class.
@@ -113,7 +123,9 @@ def hint(exercise: str = "", *, again: bool = False) -> Hint:
 
 
 def next_hint(exercise: str) -> Hint:
-    """Show one hint more, for the button below a card: not what the card says, nor the answer.
+    """Show one hint more below the earlier ones, for the button below a card.
+
+    What the card says is not repeated, and the answer has a button of its own.
 
     Args:
         exercise: The exercise's id.
@@ -127,7 +139,8 @@ def next_hint(exercise: str) -> Hint:
         found.id, lambda before: replace(before, lead="", hints=min(before.hints + 1, most))
     )
     last = "" if standing.hints < most else "It was the last one."
-    return Hint(found.id, (_numbered(found, standing.hints),), next=last)
+    shown = tuple(_numbered(found, number) for number in range(1, standing.hints + 1))
+    return Hint(found.id, shown, next=last)
 
 
 def reveal(exercise: str) -> Hint:
@@ -190,7 +203,7 @@ def _numbered(exercise: Exercise[object], number: int) -> tuple[str, str]:
 def _next(exercise: Exercise[object], used: int) -> str:
     if used >= len(exercise.hints):
         return "The next one is the answer." if are_here() else _LAST
-    what = "One more" if used else "There was no hint yet. The first one"
+    what = "One more" if used else "For a first hint"
     return f'{what}: hint("{exercise.id}")'
 
 

@@ -458,9 +458,9 @@ def diagnose_beat(
         return None
     came = _FEW.get(sum(mismatch.done), str(sum(mismatch.done)))
     evidence = (
-        f"In {observation.time:g} seconds {len(beat.right)} {what} were due, and "
-        f"{counts.total()} came. At {mismatch.at / NANOSECONDS:g} s {came} came, and "
-        f"{_FEW[sum(mismatch.right)]} was due."
+        f"In {observation.time:g} seconds {len(beat.right)} {what} should have been "
+        f"published, and {counts.total()} were. At {mismatch.at / NANOSECONDS:g} s it was {came} "
+        f"instead of {_FEW[sum(mismatch.right)]}."
     )
     waited = diagnose_wait(observation, evidence)
     if waited:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from html import escape
 from itertools import groupby
 from textwrap import dedent
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosbeat.diagnosis.mistakes import MISTAKES, in_html
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.records import Outcome, Part
+from rosbeat.records import Observation, Outcome, Part
 
 if TYPE_CHECKING:
     from pygments.lexer import Lexer
@@ -147,6 +147,44 @@ def _colours(kind: _TokenType) -> tuple[str, str] | None:
     return NAME if any(kind in one for one in named) else None
 
 
+# What an answer printed and logged while it was checked.
+
+#: Lines of each that are shown.
+_FIRST = 5
+
+
+def output_of(seen: object, printed: Sequence[str], status: str) -> tuple[tuple[str, str], ...]:
+    """Return the first lines that an answer printed and logged, each with what it is.
+
+    What a right answer logs is what the exercise asked for, and goes without saying.
+
+    Args:
+        seen: What the scenario has written down; only a node's observation has log lines.
+        printed: What the answer has printed, piece by piece.
+        status: What the judge says.
+    """
+    rows = {"Your code printed": "".join(printed).splitlines()}
+    if isinstance(seen, Observation) and seen.subject and status == FAILED:
+        name = seen.subject.strip("/").replace("/", ".")
+        rows["Your node logged"] = [f"{one.time_ns / 1e9:.2f} s  {one.level}  {one.text}"
+                                    for one in seen.logs if one.name == name]  # fmt: skip
+    return tuple((what, _first_of(lines)) for what, lines in rows.items() if lines)
+
+
+def _first_of(lines: Sequence[str]) -> str:
+    more = len(lines) - _FIRST
+    rest = [f"... and {more} more line{'s' if more > 1 else ''}"] if more > 0 else []
+    return "\n".join([*map(_short, lines[:_FIRST]), *rest])
+
+
+def _short(line: str) -> str:
+    """Return a line that fits on a page."""
+    return line if len(line) <= _WIDEST else f"{line[: _WIDEST - 4]} ..."
+
+
+#: Characters of such a line.
+_WIDEST = 160
+
 # An outcome as a learner sees it in a cell.
 
 #: The record of an outcome in a cell's output, for programs.
@@ -167,9 +205,11 @@ class Shown:
 
     Attributes:
         outcome: The outcome.
+        output: What the answer printed and logged while it was checked: what that is, and lines.
     """
 
     outcome: Outcome
+    output: tuple[tuple[str, str], ...] = ()
 
     def __str__(self) -> str:
         return "\n".join([f"{self._head} {indented(self.outcome.evidence)}".strip(), *self._rows()])
@@ -189,6 +229,9 @@ class Shown:
         parts = list(said.pop("parts"))
         return {**said, "parts": parts} if parts else said
 
+    #: Whether buttons below it lead to hints.
+    _has_buttons: ClassVar[bool] = False
+
     @property
     def _look(self) -> tuple[str, str]:
         return LOOKS[self.outcome.status]
@@ -199,25 +242,28 @@ class Shown:
         return f"{sign} Exercise {self.outcome.exercise}: {word}{self._points()}."
 
     def _points(self) -> str:
-        if self.outcome.out_of == 1 or self.outcome.status == NOT_ATTEMPTED:
+        """Return the points; those of a try that has none yet go without saying."""
+        if self.outcome.out_of == 1 or self.outcome.points == 0:
             return ""
         return f", {self.outcome.points} of {self.outcome.out_of} points"
 
     def _rows(self) -> Iterator[str]:
         for label, text in self._details():
-            yield f"  {f'{label}: ' if label else ''}{indented(text, '    ')}"
+            between = "\n    " if "\n" in text else " "
+            yield f"  {f'{label}:{between}' if label else ''}{indented(text, '    ')}"
 
     def _details(self) -> Iterator[tuple[str, str]]:
         """Generate what comes below the head: a label, which may be empty, and a text."""
         for part in self.outcome.parts:
             yield _looked_at(part)
-        if self.outcome.status == FAILED:
-            yield _named(self.outcome.mistake)
+        if self.outcome.status == FAILED and self.outcome.mistake not in MISTAKES:
+            yield "", "The check doesn't recognize this mistake."
         if self.outcome.hint:
             yield "Hint", self.outcome.hint
         for remark in self.outcome.remarks:
             yield "Remark", remark
-        if self.outcome.status == FAILED:
+        yield from self.output
+        if self.outcome.status == FAILED and not self._has_buttons:
             yield "More help", f'hint("{self.outcome.exercise}")'
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
@@ -230,13 +276,6 @@ def _looked_at(part: Part) -> tuple[str, str]:
     extra = ", optional" if part.optional else ""
     head = f"{RIGHT if part.met else WRONG} {part.id} {word}, {part.points} of {part.out_of}{extra}"
     return head, part.text if part.met else part.evidence
-
-
-def _named(mistake: str) -> tuple[str, str]:
-    known = MISTAKES.get(mistake)
-    if known is None:
-        return "", "The check doesn't recognize this mistake."
-    return "Mistake", f"{known.title}."
 
 
 def _labelled(label: str, text: str) -> str:

@@ -24,7 +24,7 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
     typed_about,
 )
-from rosbeat.exercises.workspace_model import alike, diagnosis_of
+from rosbeat.exercises.workspace_model import alike, diagnosis_of, in_workspace
 from rosbeat.workspace.location import NAME, workspace
 from rosbeat.workspace.prerequisites import FOLDERS
 
@@ -126,8 +126,13 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
     there = {one for one in seen.workspace.folders if _is_near(one) and one != _ALARM}
     known = diagnosis_of(seen.meaning)
     if seen.obstacle:
-        said = f"{_ALARM} is {seen.obstacle}, and a folder of this workspace was asked for."
-        hint = "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one."
+        # Behind a link, the link is what has to go.
+        path = _RUNS_THROUGH if "behind" in seen.obstacle else _ALARM
+        said = (
+            f"{_ALARM} is {seen.obstacle}, and a folder of this workspace was asked for. "
+            f"`rm {in_workspace(path)}` removes it."
+        )
+        hint = "Remove it, and make the folder with `mkdir`: it makes a new, empty one."
         return Diagnosis("not-a-folder", said, hint)
     if known and known.mistake != "folder-exists":  # which is no mistake here
         hint = _PWD if _ALARM in known.hint else known.hint
@@ -341,8 +346,13 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
         return "word-missing", ("A path alone isn't a command. Which command changes the folder?")
     if first not in ("cd", "pushd"):
         return ("command-misspelled" if alike(first, "cd") else UNKNOWN), _UPWARDS
+    if not rest:
+        return "word-missing", "`cd` alone goes to your home folder. Write the path behind it."
+    if rest[0] == first:
+        return "word-misspelled", f"`{first}` stands there twice. Once is enough."
     if len(rest) > 1 and not rest[0].startswith("-"):
-        return "space-too-many", "A path contains no spaces: `/` joins its parts."
+        hint = "`cd` takes one path: `/` joins its parts, with no spaces between them."
+        return "space-too-many", hint
     if _is_absolute(rest):
         return "absolute-path", _RELATIVE
     # Where the path leads from the start, whether there is such a folder or not.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,13 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
     typed_about,
 )
-from rosbeat.exercises.workspace_model import alike, diagnosis_of
+from rosbeat.exercises.workspace_model import (
+    about_stray,
+    alike,
+    diagnosis_of,
+    in_workspace,
+    remarks_on_strays,
+)
 from rosbeat.workspace.packages import Package
 
 # A manifest is text, and what is wrong with a text is told by looking at it: nothing is simulated
@@ -50,11 +56,15 @@ def _judge_manifest(seen: Workspace) -> Verdict:
     here = [one for one in seen.packages.values() if one.folder.as_posix() == f"src/{_FIRST}"]
     if not here and _FIRST in seen.packages:
         return _misplaced(_FIRST, seen.place_of(_FIRST))
+    if not here and seen.strays:
+        return about_stray(seen.strays[0])
     if not here:
         return not_attempted(f"There is no package {_FIRST} in src yet.")
     manifest = here[0].manifest
     todo = _open_texts(manifest)
     slip = next(_slips_of_form(manifest, _MANIFEST), None)
+    if not slip and todo and seen.strays:
+        return about_stray(seen.strays[0])  # what was filled in is there
     if not slip and len(todo) == 2:
         said = f"{_MANIFEST} has no description and no licence yet. {NOT_SAVED}"
         return not_attempted(said)
@@ -62,7 +72,7 @@ def _judge_manifest(seen: Workspace) -> Verdict:
     if slip:
         return slip
     said = f"Licensed under {manifest.license}: {manifest.description}"
-    return passed(said, *_remark_on_license(manifest.license))
+    return passed(said, *_remark_on_license(manifest.license), *remarks_on_strays(seen.strays))
 
 
 def _open_texts(manifest: Manifest) -> list[str]:
@@ -252,10 +262,11 @@ def _judge_second(made: PackageMaking) -> Verdict:
         return slip
     if package is None:
         return diagnosis_of(made.meaning) or _nothing_made(made.tried, seen.packages)
-    return passed(f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
+    said = f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}."
+    return passed(said, *remarks_on_strays(seen.strays))
 
 
-def _nothing_made(tried: str, packages: Collection[str]) -> Verdict:
+def _nothing_made(tried: str, packages: Mapping[str, Package]) -> Verdict:
     if not tried:
         return not_attempted(f"There is no package {_SECOND} yet.")
     other = next((name for name in re.split(r"[\s=,'\"]+", tried) if name in packages), "")
@@ -263,8 +274,8 @@ def _nothing_made(tried: str, packages: Collection[str]) -> Verdict:
         return Diagnosis(
             "other-package",
             f"There is a package {other}, and none called {_SECOND}.",
-            f"The exercise says what the package is called. Remove the folder (rm -r) of {other}, "
-            "and make it again.",
+            f"The exercise says what the package is called. {_removed(packages[other])}, and make "
+            "it again.",
         )
     return Diagnosis(
         UNKNOWN,
@@ -277,7 +288,8 @@ def _misplaced(package: str, place: str) -> Diagnosis:
     return Diagnosis(
         "wrong-folder",
         f"{package} lies in {place}, and packages belong in src.",
-        "Remove it there (rm -r), go to src with cd, and make it again.",
+        f"Move it there: `mv {in_workspace('' if place == 'the workspace itself' else place + '/')}"
+        f"{package} {in_workspace('src/')}`",
     )
 
 
@@ -295,25 +307,32 @@ def _slips_of_absence(made: PackageMaking) -> Iterator[Diagnosis]:
             "no-manifest",
             f"There is a folder {inside[0]}, and no package.xml in it.",
             "`ros2 pkg create` makes the folder and all that belongs in it. Remove the folder "
-            "first: `rmdir` removes an empty one.",
+            f"first: `rm -r {in_workspace(inside[0])}`.",
         )
     for name in seen.packages:
         if alike(name, _SECOND) and name != _FIRST:
             yield Diagnosis(
                 "package-misspelled",
                 f"There is a package {name}, and none called {_SECOND}.",
-                f"Names count letter by letter. Remove the folder (rm -r) of {name}, and make it "
+                f"Names count letter by letter. {_removed(seen.packages[name])}, and make it "
                 "again.",
             )
+
+
+def _removed(package: Package) -> str:
+    """Return how to remove a package, from wherever a terminal is."""
+    return f"Remove the folder with `rm -r {in_workspace(package.folder.as_posix())}`"
 
 
 def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnosis]:
     """Generate what is wrong with the package that is there."""
     place, manifest = made.workspace.place_of(_SECOND), package.manifest
-    again = f"Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
+    again = f"{_removed(package)}, and make the package again, with "
     if place:
         yield _misplaced(_SECOND, place)
-    yield from _slips_of_form(manifest, f"src/{_SECOND}/package.xml")
+    anew = f"To begin anew: {_removed(package)}."
+    for slip in _slips_of_form(manifest, f"src/{_SECOND}/package.xml"):
+        yield replace(slip, hint=f"{slip.hint} {anew}")
     if manifest.build_type != "ament_python":
         kind = manifest.build_type or "of an unknown kind"
         hint = f"{again}--build-type: a Python package was asked for."
@@ -331,7 +350,8 @@ def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnos
             yield Diagnosis(
                 "marker-missing",
                 f"{_SECOND} has no {name} that colcon could use.",
-                f"Compare it with the files of {_FIRST}: every Python package has the same ones.",
+                f"Compare it with the files of {_FIRST}: every Python package has the same ones. "
+                f"{anew}",
             )
 
 

@@ -51,7 +51,7 @@ def _judge_beat(observation: Observation, seconds: float) -> Verdict:
         depth = "without end" if qos.history == "KEEP_ALL" else str(qos.depth)
         return Diagnosis(
             "wrong-depth",
-            f"The beat is right, and the publisher's queue depth is {depth}.",
+            f"The timing is right, but the publisher's queue depth is {depth}.",
             f"A depth of {_DEPTH} is wanted. Which argument of create_publisher is that?",
         )
     evidence = (
@@ -180,14 +180,18 @@ class _Walk:
 
     def evidence(self, mistake: str = "") -> str:
         unit = "" if mistake == "wrong-unit" else f" {self.asked.unit}"
+        if self.widest == 0:
+            return f"All readings are {self.top:.2f}{unit}."
         return (
-            f"The readings went from {self.bottom:.2f} to {self.top:.2f}{unit}, in "
+            f"The readings were between {self.bottom:.2f} and {self.top:.2f}{unit}, in "
             f"steps of at most {self.widest:.2f}."
         )
 
     def first_slip(self) -> str:
         """Say when it first did what no right walk does, if there is such a moment."""
         asked = self.asked
+        if self.widest == 0:
+            return ""
         for n, (before, now) in enumerate(pairwise(self.values), 2):
             beyond = max(now - asked.high, asked.low - now)
             if abs(now - before) > asked.step + _IN_A_STEP or beyond > _ROUNDING:
@@ -358,8 +362,9 @@ _SIGNS = _signs(
      "may be as wide as {asked.step:g}, up and down.{asked.aside}", _Walk.is_uneven),
 )  # fmt: skip
 _SIGNS_AT_AN_END = _signs(
-    ("clamp-not-kept", "It stays at {0.limit:g} for minutes. The published value is clamped, but "
-     "the stored one isn't: it has to walk all the way back.", _End.is_stuck),
+    ("clamp-not-kept", "The reading stays at {0.limit:g} for minutes: you publish a clamped value, "
+     "but the stored one goes on beyond {0.limit:g} and has to walk all the way back.",
+     _End.is_stuck),
     ("clamp-swapped", "It never gets past {0.value:g}. Which of the two, min or max, keeps a "
      "number below a limit?", lambda end: end.is_cut() and abs(end.value - end.other) < _ROUNDING),
     ("other-limits", "Something cuts it off at {0.value:g}, and {0.limit:g} was asked "

@@ -61,6 +61,8 @@ FRIDGE_SUSPECTS = suspects(
      _each(partial(_state, high=7.999, low=2.001))),
     ("wrong-state", "These are the monitor's limits. A fridge has limits of its own.",
      _each(partial(_state, high=26.0, low=20.0))),
+    ("wrong-state", "Your second `if` starts a new decision: its `else` overwrites Warm. Did you "
+     "mean `elif`?", _each(lambda value: "Frost" if value < 2.0 else "Fine")),
     ("wrong-state", "Warm and Frost are swapped.",
      _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
     ("wrong-state", "Whole degrees aren't precise enough: compare the reading itself.",
@@ -122,7 +124,7 @@ def _logged(observation: Observation, readings: Readings) -> Track:
 
 def _judge_states(observation: Observation, readings: Readings) -> Verdict:
     done, right = _logged(observation, readings), _each(_state)(readings)
-    describe = partial(_describe_state, readings)
+    describe = partial(_describe_state, readings, observation.printed > 0)
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose(readings, done, right, FRIDGE_SUSPECTS, describe)
@@ -130,11 +132,19 @@ def _judge_states(observation: Observation, readings: Readings) -> Verdict:
     )
 
 
-def _describe_state(readings: Readings, mismatch: Mismatch) -> Diagnosis:
+def _describe_state(readings: Readings, prints: bool, mismatch: Mismatch) -> Diagnosis:
     value, (wanted,) = readings[mismatch.at - 1], mismatch.right
     if not mismatch.done:
         evidence = f"A reading of {value:g} arrived and nothing was logged."
-        hint = "End the callback with self.get_logger().info(...)."
+        hint = (
+            "End the callback with self.get_logger().info(...). A `return` above that line would "
+            "leave the callback before."
+        )
+        if prints:
+            hint = (
+                "`print` is for you; other nodes and tools see only the log. End the callback with "
+                "self.get_logger().info(...)."
+            )
         return Diagnosis("nothing-logged", evidence, hint)
     evidence = f"For a reading of {value:g} the node said {' and '.join(mismatch.done)}."
     strange = next((one for one in mismatch.done if one not in _STATE_OF.values()), None)
@@ -411,7 +421,7 @@ def _wrong_means(done: Track, seconds: Seconds) -> Diagnosis | None:
                 "wrong-rate",
                 f"{len(heard)} readings arrived, and {sum(map(len, done.values()))} means "
                 f"were published: at {mismatch.at:g} s there were {len(mismatch.done)}, and "
-                f"{len(mismatch.right)} was due.",
+                f"{len(mismatch.right)} should have been.",
                 "Publish one mean for each reading, also while there are fewer than five.",
             )
         last = [f"{value:g}" for at, value in heard.items() if at <= mismatch.at][-6:]
@@ -597,8 +607,8 @@ def _wrong_statuses(done: Track, seconds: Seconds, each: bool = False) -> Diagno
         after = f"after a reading of {values[-1]:g}" if values else "before the first reading"
         said, due = (" and ".join(one) or "nothing" for one in (mismatch.done, mismatch.right))
         evidence = (
-            f"The status was {before}. At {at:g} s, {after}, {said} was published, and {due} was "
-            "due."
+            f"The status was {before}. At {at:g} s, {after}, {said} was published, and {due} "
+            "should have been."
         )
         if not each:
             return _unmodelled(before, mismatch.done, mismatch.right, evidence)

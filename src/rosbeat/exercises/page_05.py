@@ -8,7 +8,11 @@ from typing import Any
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.exercises.exercise import BLANK, NOT_SAVED, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import Workspace, look_at_workspace
-from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script
+from rosbeat.exercises.workspace_model import (
+    diagnose_entries,
+    diagnose_script,
+    remarks_on_strays,
+)
 from rosbeat.workspace.packages import Package
 
 # A setup.py is read and never run, so nothing is drawn.
@@ -33,7 +37,7 @@ def _judge_setup(seen: Workspace, name: str, programs: tuple[str, str]) -> Verdi
     if found:
         return found
     said = f"setup.py names {' and '.join(programs)}."
-    return passed(said, *_remarks_on_texts(package))
+    return passed(said, *_remarks_on_texts(package), *remarks_on_strays(seen.strays))
 
 
 def _diagnose_data_files(package: Package) -> Diagnosis | None:

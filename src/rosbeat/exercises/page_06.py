@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ast
 import re
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import diagnose_flaw, parse
-from rosbeat.diagnosis.terminal import commands_in
+from rosbeat.diagnosis.terminal import commands_in, substitution, writes_file
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import spelling
 from rosbeat.exercises.scenarios import (
@@ -20,7 +21,15 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
     typed_about,
 )
-from rosbeat.exercises.workspace_model import FLAW_HINTS, alike, diagnose_script, diagnosis_of
+from rosbeat.exercises.workspace_model import (
+    FLAW_HINTS,
+    SETUP_ANEW,
+    about_stray,
+    alike,
+    diagnose_script,
+    diagnosis_of,
+    in_workspace,
+)
 from rosbeat.workspace.packages import Package
 
 _PACKAGE = "sensor_simulator"
@@ -144,9 +153,11 @@ def _judge_change(seen: CodeChange) -> Verdict:
     if seen.package.flaws:
         flaw = seen.package.flaws[0]
         found = diagnose_flaw(flaw)
-        return Diagnosis(found.mistake, found.evidence, FLAW_HINTS[flaw.kind])
+        hint = FLAW_HINTS[flaw.kind]
+        hint = hint if "%%save" in hint else f"{hint} {_WAY_BACK}"
+        return Diagnosis(found.mistake, found.evidence, hint)
     if _NEW in seen.source and _NEW not in seen.logged:
-        hint = "It was logged with self.get_logger().info(...). Only the words change."
+        hint = f"It was logged with self.get_logger().info(...). Only the words change. {_WAY_BACK}"
         return Diagnosis(
             "nothing-logged", f"The file in src says {_NEW!r}, and logs it nowhere.", hint
         )
@@ -168,7 +179,7 @@ def _about_copies(seen: CodeChange) -> str:
 
 def _diagnose_change(seen: CodeChange) -> Verdict:
     if _NEW in seen.source:
-        hint = "Replace the old text; don't add a second one."
+        hint = f"Replace the old text; don't add a second one. {_WAY_BACK}"
         return Diagnosis("wrong-word", f"The file in src says {_OLD!r}, too.", hint)
     if _NEW in seen.copies:
         return Diagnosis(
@@ -191,7 +202,7 @@ def _diagnose_change(seen: CodeChange) -> Verdict:
         return Diagnosis(
             "nothing-logged",
             "The text that the monitor logs at its start is gone.",
-            f"Only the end of {_OLD!r} changes.",
+            f"Only the end of {_OLD!r} changes. {_WAY_BACK}",
         )
     said.sort(key=lambda one: -len(set(one.split()).intersection(_NEW.split())))
     evidence = f"The file in src says {said[0]!r}; {_NEW!r} was asked for."
@@ -200,7 +211,25 @@ def _diagnose_change(seen: CodeChange) -> Verdict:
         hint = (
             "The text has more words than that. Only those that the exercise names are asked for."
         )
-    return Diagnosis("wrong-word", evidence, hint)
+    return Diagnosis("wrong-word", evidence, f"{hint} {_about_trying_again(seen)}".strip())
+
+
+#: How to have the file again as it was before the first try.
+_WAY_BACK = (
+    "To begin anew, run the cell of page 04 that saves the file, `%%save`; your version is kept."
+)
+
+
+def _about_trying_again(seen: CodeChange) -> str:
+    """Say how the next try finds the words that an earlier one has written."""
+    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
+    made = substitution(words)
+    if made is None:
+        return ""
+    with suppress(re.error):  # quotes and parentheses are around a text and not in it
+        if any(re.search(made[0].strip("\"'()"), text) for text in seen.source):
+            return "Correct the line and run it again."
+    return f"The file no longer holds {made[0]!r}, for which that `sed` looks. {_WAY_BACK}"
 
 
 def _diagnose_nothing_changed(seen: CodeChange) -> Verdict:
@@ -208,16 +237,17 @@ def _diagnose_nothing_changed(seen: CodeChange) -> Verdict:
     said = f"The monitor's file in src still says {_OLD!r}."
     if not seen.tried:
         return not_attempted(said)
+    tried = f"You typed `{seen.tried}`. {said}"
+    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
+    if writes_file(words) and not any(word.endswith(_MONITOR) for word in words):
+        return Diagnosis("other-file", tried, f"The monitor's file is {_MONITOR}.")
     known = diagnosis_of(seen.meaning)
     if known:
         return known
-    said = f"You typed `{seen.tried}`. {said}"
-    words = next((words for words in commands_in(seen.tried) if words[0] == "sed"), [])
-    if words and not any(re.match(r"-\w*i|--in-place", word) for word in words):
+    said = tried
+    if words and not writes_file(words):
         hint = "sed prints the changed text. Which option writes it into the file instead?"
         return Diagnosis("only-printed", said, hint)
-    if words and not any(word.endswith(_MONITOR) for word in words):
-        return Diagnosis("other-file", said, f"The monitor's file is {_MONITOR}.")
     if words:
         hint = "The first of the two texts has to be in the file, letter by letter."
         return Diagnosis("nothing-replaced", said, hint)
@@ -270,6 +300,8 @@ def _judge_links(made: LinkMaking) -> Verdict:
         return not_attempted(f"There is no package {_PACKAGE} in src yet.")
     if package.installed and package.installed.linked:
         return passed(f"{_PACKAGE} is installed as a link to src.")
+    if made.tried and seen.strays:
+        return about_stray(seen.strays[0])
     found = _diagnose_build(seen, package)
     if found:
         return found
@@ -296,11 +328,14 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
         return Diagnosis(
             "wrong-folder",
             f"There is a folder install in {place}: the build was made there.",
-            "colcon builds into the folder where it is typed. Remove build, install and log there, "
-            "and build in the workspace.",
+            "colcon builds into the folder where it is typed. Remove what it has made there, `rm "
+            f"-r {in_workspace(place)}/{{build,install,log}}`, go back with "
+            f"`cd {in_workspace('')}`, and build there.",
         )
     flaws = [one for one in package.flaws if one.kind in ("missing-comma", "slash")]
     broken = diagnose_script(package) or (diagnose_flaw(flaws[0]) if flaws else None)
+    if broken and "%%save" not in broken.hint:
+        broken = replace(broken, hint=f"{broken.hint} {SETUP_ANEW}")
     others = [name for name, one in seen.packages.items() if one.installed and one.installed.linked]
     if broken or not others:
         return broken
@@ -314,7 +349,7 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise("06a", look_at_change, _judge_change, title="change the code", hints=(
         "`sed -i 's/old/new/' file` replaces the first text by the second one, wherever it is "
-        "in a line.",
+        "in a line; `.*` in the first one stands for any words.",
         "The new text ends with a number. Compare it with the text above, with its capital "
         "letter and its space.",
     )),

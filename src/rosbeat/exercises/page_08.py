@@ -252,7 +252,9 @@ def _diagnose_modes(done: Track, commands: Commands) -> Diagnosis | None:
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         said, due = _listed(mismatch.done), _listed(mismatch.right)
-        evidence = f"At {mismatch.at:g} s the node published {said} on /mode; {due} was due."
+        evidence = (
+            f"At {mismatch.at:g} s the node published {said} on /mode; {due} should have been."
+        )
         modes = [word for at in sorted(right) if at <= mismatch.at for word in right[at]]
         if not mismatch.right:
             modes = [*modes[:-1], modes[-1], modes[-1]]
@@ -638,9 +640,11 @@ def _describe_number(mismatch: Mismatch, late: float) -> Diagnosis:
     ((at, number),) = mismatch.done
     evidence = f"Message {mismatch.at + 1} on /missed was {number}, at {at:g} s; "
     if not mismatch.right:
-        return Diagnosis("alert-too-many", f"{evidence}nothing more was due.", _NO_NEWS)
+        return Diagnosis(
+            "alert-too-many", f"{evidence}nothing more should have been published.", _NO_NEWS
+        )
     ((due, wanted),) = mismatch.right
-    evidence += f"{wanted} was due, at {due:g} s."
+    evidence += f"{wanted} should have been published, at {due:g} s."
     if due - _EXACT <= at <= due + late:
         return Diagnosis("wrong-values", evidence, _IN_A_ROW)
     if at > due and number != wanted:

@@ -6,6 +6,7 @@ import json
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -16,7 +17,7 @@ from rosbeat.errors import ExerciseError
 from rosbeat.records import Observation, QoS
 from rosbeat.ros.isolation import Deadline
 from rosbeat.workspace.commands import recognise
-from rosbeat.workspace.packages import Package, find_packages, read_package
+from rosbeat.workspace.packages import Package, find_packages, is_stray, read_package
 
 # What `ros` runs answers with, imported when the first one runs.
 
@@ -34,6 +35,13 @@ def observe(answer: Answer, seconds: float, **options: Value) -> Observation:
     from rosbeat.ros import scenario
 
     return scenario.observe(answer, seconds, **options)
+
+
+def overheard() -> AbstractContextManager[list[str]]:
+    """Collect the beginning of what answers print; see `rosbeat.ros.isolation.overheard`."""
+    from rosbeat.ros import isolation
+
+    return isolation.overheard()
 
 
 def observe_system(answer: Answer, seconds: float, **options: Value) -> Observation:
@@ -183,10 +191,13 @@ class Workspace:
     Attributes:
         folders: Every folder, relative to the workspace, without links and what colcon makes.
         packages: Every package, wherever it lies.
+        strays: Each `package.xml` that makes a package of a folder for packages, relative to the
+            workspace: colcon finds none of those below it.
     """
 
     folders: tuple[str, ...]
     packages: dict[str, Package]
+    strays: tuple[str, ...] = ()
 
     def place_of(self, name: str, root: str = "src") -> str:
         """Return where a package lies that is not in `root`, or an empty text."""
@@ -248,11 +259,17 @@ def look_at_workspace(answer: Answer) -> Workspace:
             "This check examines the folders of your workspace.",
             "Write workspace.folder(), and run the cells above first: they create the workspace.",
         )
-    read = (read_package(folder, root) for folder in find_packages(root))
+    folders = find_packages(root)
+    strays = [one for one in folders if is_stray(one, root)]
+    read = (read_package(folder, root) for folder in folders if folder not in strays)
     found = [replace(one, folder=one.folder.relative_to(root)) for one in read]
     # Of two with one name, the one in src under that name counts; a backup has its name, too.
     packages = sorted(found, key=lambda one: one.folder.as_posix() == f"src/{one.name}")
-    return Workspace(_folders(root), {package.name: package for package in packages})
+    return Workspace(
+        _folders(root),
+        {package.name: package for package in packages},
+        tuple((one.relative_to(root) / "package.xml").as_posix() for one in strays),
+    )
 
 
 def look_at_terminal(answer: Answer, root: Path, about: str = "") -> TypedIn:

@@ -30,9 +30,40 @@ const button = (text, does, more = {}) =>
 const group = (label, ...children) =>
   make("div", { class: "rb-buttons", role: "group", "aria-label": label }, ...children);
 
+// JupyterLab, where its settings let a page ask it: the notebook that shows an element.
+
+function notebookAround(element) {
+  const widgets = window.jupyterapp?.shell.widgets("main") ?? [];
+  return Array.from(widgets).find((one) => one.content?.widgets && one.node.contains(element));
+}
+
+// Runs the cells of an exercise, and then the one that shows the element; false if nobody can.
+async function runCells(element, exercise) {
+  const content = notebookAround(element)?.content;
+  const cells = content?.widgets ?? [];
+  const here = cells.findIndex((cell) => cell.node.contains(element));
+  if (here < 0) return false;
+  const mine = cells.filter(
+    ({ model }, at) =>
+      at < here && model.type === "code" && model.getMetadata("rosbeat")?.exercise === exercise,
+  );
+  for (const cell of [...mine, cells[here]]) {
+    content.activeCellIndex = content.widgets.indexOf(cell);
+    content.deselectAll();
+    await window.jupyterapp.commands.execute("notebook:run-cell");
+  }
+  return true;
+}
+
+// Saves the page on which an exercise has passed: what counts is in the file.
+function save(element) {
+  const context = notebookAround(element)?.context;
+  if (context?.model.dirty && !context.model.readOnly) context.save();
+}
+
 // Each kind of widget returns its rows, and what brings them up to date.
 
-function check(model, ask) {
+function check(model, ask, say, whole) {
   const sure = (open) => {
     row.hidden = open;
     question.hidden = !open;
@@ -40,11 +71,23 @@ function check(model, ask) {
   };
   const asks = (what, words) => () => ask({ do: what }, words);
   const answer = button("Show the answer", () => sure(true));
+  const again = button("Run again", async () => {
+    if (!(await runCells(whole, model.get("exercise")))) {
+      ask({ do: "again" }, "Checking ...");
+    }
+  });
+  let isSaved = false;
+  const saveOnce = () => {
+    if (isSaved || !model.get("passed") || !whole.isConnected) return;
+    isSaved = true;
+    save(whole);
+  };
+  requestAnimationFrame(saveOnce); // the page has put it in its place by then
   const row = group(
     `Help with exercise ${model.get("exercise")}`,
     button("Hint", asks("hint", "Looking for a hint ...")),
     answer,
-    button("Run again", asks("again", "Checking ...")),
+    again,
   );
   const question = group(
     "Show the answer?",
@@ -60,6 +103,12 @@ function check(model, ask) {
     if (model.get("passed")) question.hidden = true;
     row.hidden = model.get("passed") || !question.hidden;
     answer.hidden = !model.get("has_answer");
+    // Where JupyterLab cannot be asked, the kernel judges what the cell defined when it ran last.
+    again.textContent = window.jupyterapp ? "Run again" : "Check again";
+    again.title = window.jupyterapp
+      ? "Runs the cell of the exercise, and then this check"
+      : "Checks the cell of the exercise as it last ran";
+    saveOnce();
   };
   return { rows: [row, question], update };
 }
@@ -184,7 +233,7 @@ function render({ model, el }) {
     if (hadFocus && kind !== "quiz" && model.get("passed")) status.focus();
   }
 
-  const shown = { check, predict, quiz }[kind](model, ask, say);
+  const shown = { check, predict, quiz }[kind](model, ask, say, whole);
   whole.append(...shown.rows, status);
   el.append(whole);
   hear();

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from difflib import SequenceMatcher
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import NO_CALL, diagnose_flaw
 from rosbeat.exercises.model import Mismatch, Track, diagnose, variants
 from rosbeat.exercises.scenarios import CommandMeaning
+from rosbeat.workspace.location import VARIABLE
 from rosbeat.workspace.packages import Package
 
 #: How much alike two names have to be, from 0 to 1, to be taken for one with a letter wrong.
@@ -33,6 +35,38 @@ def diagnosis_of(meaning: CommandMeaning | None) -> Diagnosis | None:
     return Diagnosis(mistake, meaning.evidence, meaning.hint)
 
 
+# A manifest in a folder that holds packages.
+
+
+def in_workspace(path: str) -> str:
+    """Return a path of the workspace as it can be typed in any folder.
+
+    Args:
+        path: Relative to the workspace.
+    """
+    return f'"${VARIABLE}"/{path}'
+
+
+def about_stray(path: str) -> Diagnosis:
+    """Say what a `package.xml` does in a folder that is to hold packages, and how to undo that.
+
+    Args:
+        path: The file, relative to the workspace.
+    """
+    place = path.rpartition("/")[0] or "the workspace itself"
+    return Diagnosis(
+        "wrong-folder",
+        f"There is a package.xml in {place}, so colcon takes {place} for one package and finds "
+        "none of the packages below it.",
+        f"Each package has its own package.xml. Remove this one: `rm {in_workspace(path)}`",
+    )
+
+
+def remarks_on_strays(strays: Sequence[str]) -> tuple[str, ...]:
+    """Return a remark on each `package.xml` that a right answer leaves in the way of colcon."""
+    return tuple(f"{found.evidence} {found.hint}" for found in map(about_stray, strays))
+
+
 # A build script. It is read and never run, so what is wrong with it is told by its text.
 
 #: What to do about a flaw of an entry point, by its kind, without giving the answer away.
@@ -44,9 +78,14 @@ FLAW_HINTS = {
     "no-function-part": "After the module comes a colon and the name of the function.",
     "called": "The name of the function is enough, without parentheses.",
     "no-module": "The module is package.file: the folder with __init__.py, a dot, the file's name.",
-    "syntax-error": "Correct the file, on page 03 or 04, and run its cell again.",
+    "syntax-error": "Correct the file, or begin anew: run the cell of page 03 or 04 that saves "
+    "it, `%%save`.",
     "no-function": "Look for `def` in the file. Compare the two names letter by letter.",
 }
+
+
+#: How to have a `setup.py` again.
+SETUP_ANEW = "The cell of page 05 that saves setup.py, `%%save`, writes it anew."
 
 
 def diagnose_script(package: Package) -> Diagnosis | None:
@@ -60,17 +99,17 @@ def diagnose_script(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "no-setup-call",
             f"setup.py cannot be used: {setup.problem}.",
-            "setup(...) has to be called when the file is run, without indentation.",
+            f"setup(...) has to be called when the file is run, without indentation. {SETUP_ANEW}",
         )
     if setup.problem and not setup.line and "No such file" in setup.problem:
-        hint = "Run the cell above again: it writes the file."
-        return Diagnosis("marker-missing", "setup.py is gone.", hint)
+        return Diagnosis("marker-missing", "setup.py is gone.", SETUP_ANEW)
     if setup.problem:
         where = f", line {setup.line}" if setup.line else ""
         return Diagnosis(
             "syntax-error",
             f"setup.py cannot be read: {setup.problem}{where}.",
-            "Each entry is a string in quotes, with a comma after it, inside the square brackets.",
+            "Each entry is a string in quotes, with a comma after it, inside the square brackets. "
+            f"{SETUP_ANEW}",
         )
     if setup.misspelled_group:
         return Diagnosis(
@@ -164,7 +203,8 @@ def _diagnose_installation(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "build-type",
             f"setup.py is fine, and package.xml says {kind}: colcon would not even read setup.py.",
-            "<build_type> belongs to a package for Python.",
+            "<build_type> belongs to a package for Python. `sed -i 's/ament_cmake/ament_python/' "
+            f"{in_workspace(package.folder.as_posix())}/package.xml` writes it.",
         )
     if not package.setup.installs(name):
         return Diagnosis(
@@ -179,7 +219,8 @@ def _diagnose_installation(package: Package) -> Diagnosis | None:
             "marker-missing",
             f"setup.py is fine, and {name}/__init__.py is gone: find_packages would not see the "
             "folder.",
-            "It is an empty file; `touch` makes one.",
+            f"It is an empty file: `touch {in_workspace(package.folder.as_posix())}/{name}"
+            "/__init__.py` makes one.",
         )
     if package.scripts_are_found:
         return None
@@ -187,5 +228,6 @@ def _diagnose_installation(package: Package) -> Diagnosis | None:
         "marker-missing",
         "setup.py is fine, and setup.cfg does not say where programs go: `ros2 run` would not "
         "find them.",
-        "Compare it with the setup.cfg that page 02 shows.",
+        "Compare it with the setup.cfg that page 02 shows, and write its four lines there: "
+        "double-click the file in the file browser.",
     )

@@ -259,9 +259,35 @@ _RESERVED: dict[str, Callable[..., Any]] = {
 
 @dataclass
 class Count:
-    """Count the characters that code other than rosbeat's own printed, on both streams."""
+    """Count the characters that code other than rosbeat's own printed, on both streams.
+
+    Attributes:
+        characters: How many there were.
+    """
 
     characters: int = 0
+
+    def add(self, text: str) -> None:
+        """Count a text, and let a check overhear its beginning."""
+        self.characters += len(text)
+        for heard in _overhearing:
+            heard.append(text[: _MOST_HEARD - sum(map(len, heard))])
+
+
+#: Characters of what is printed that a check can show.
+_MOST_HEARD = 4000
+_overhearing: list[list[str]] = []
+
+
+@contextmanager
+def overheard() -> Iterator[list[str]]:
+    """Collect the beginning of what answers print in the block, which is not shown meanwhile."""
+    heard: list[str] = []
+    _overhearing.append(heard)
+    try:
+        yield heard
+    finally:
+        _overhearing.remove(heard)
 
 
 class Sink(TextIOBase):
@@ -288,7 +314,7 @@ class Sink(TextIOBase):
         if _thread.get_ident() in self._others:
             return int(self._real.write(text))
         if not sys._getframe(1).f_code.co_filename.startswith(_ROSBEAT):
-            self._count.characters += len(text)
+            self._count.add(text)
         return len(text)
 
     def outlive_threads(self) -> None:

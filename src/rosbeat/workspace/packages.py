@@ -99,6 +99,9 @@ def read_package(folder: Path, root: Path) -> Package:
 def find_packages(root: Path) -> list[Path]:
     """Return the folders below a workspace that hold a `package.xml`, as colcon would find them.
 
+    A `package.xml` in the workspace itself or in `src` ends colcon's search there. Here it does not
+    hide the packages below, so that it can be told what hides them; see `is_stray`.
+
     Args:
         root: The workspace.
     """
@@ -110,9 +113,19 @@ def find_packages(root: Path) -> list[Path]:
             continue
         if (folder / "package.xml").is_file():
             found.append(folder)
-        else:
+        if folder not in found or is_stray(folder, root):
             todo += _folders(folder)
     return sorted(found)
+
+
+def is_stray(folder: Path, root: Path) -> bool:
+    """Return whether a folder can hold packages, and be none.
+
+    Args:
+        folder: The folder.
+        root: The workspace.
+    """
+    return folder in (root, root / "src")
 
 
 def _folders(folder: Path) -> list[Path]:

@@ -20,6 +20,7 @@ from rosbeat.errors import WorkspaceError, called_as
 from rosbeat.workspace.location import workspace
 from rosbeat.workspace.packages import (
     find_packages,
+    is_stray,
     parse_manifest,
     read_package,
     with_entry_points,
@@ -167,6 +168,12 @@ def package(root: Path) -> str:
 def _check_place(folder: Path, root: Path) -> None:
     """Say what is wrong with a package that lies elsewhere, is of another kind, or half made."""
     for other in find_packages(root):
+        if is_stray(other, root):
+            path = (other / "package.xml").relative_to(root)
+            raise InTheWay(
+                f"{path} makes a package of its folder, so colcon finds none of the packages below "
+                f'it. Remove it with `rm "$ROS2_WORKSPACE"/{path}`.'
+            )
         if other != folder and read_package(other, root).name == PACKAGE:
             place = other.relative_to(root).as_posix()
             raise InTheWay(

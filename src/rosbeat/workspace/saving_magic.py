@@ -327,7 +327,12 @@ class BadSyntax(Exception):  # noqa: N818 - it stands for a SyntaxError
     Args:
         message: What Python says.
         shown: The lines that a page shows.
+
+    Attributes:
+        of_text: The error of the text.
     """
+
+    of_text: SyntaxError | None = None
 
     def __init__(self, message: str, shown: list[str]) -> None:
         super().__init__(message)
@@ -341,7 +346,10 @@ BadSyntax.__name__ = "SyntaxError"
 
 
 def _shown(shell: InteractiveShell, error: SyntaxError) -> BadSyntax:
-    return BadSyntax(str(error), shell.SyntaxTB.structured_traceback(type(error), error, []))
+    shown = shell.SyntaxTB.structured_traceback(type(error), error, [])
+    bad = BadSyntax(str(error), shown)
+    bad.of_text = error
+    return bad
 
 
 def _number_of_cell(shell: InteractiveShell) -> int:

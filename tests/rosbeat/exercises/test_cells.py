@@ -176,7 +176,7 @@ def test_buttons_below_a_card_help_and_judge_anew(page):
     assert "The cell above did not run (line 7: SyntaxError" in said
     page((EXERCISE, RIGHT))
     said = page(("", "press('again')")).text
-    assert said.startswith("10 True Checked the cell above as it last ran: passed. ")
+    assert said.startswith("10 True Checked the cell above as it last ran: passed.")
 
 
 def test_a_button_says_what_went_wrong(page):

@@ -22,7 +22,7 @@ TOLD = [
     ("00a", (_SUBSCRIBE, f"{_SUBSCRIBE}; {_SUBSCRIBE.replace('weather', 'politics')}"),
      "/politics, /weather"),
     ("03a", ("self.publisher_.publish", "for _ in 'ab': self.publisher_.publish"),
-     "At 0.5 s 2 came, and one was due."),
+     "At 0.5 s it was 2 instead of one."),
     ("03b", ("28.0", "99.0"), "cuts it off at 99"),
     ("04a", ("{status}", "Warm or Frost"), "For a reading of 5 the node said Warm and Frost."),
     ("04a", ("temp = msg.data", "temp = int(msg.data)"), "Whole degrees aren't precise enough"),
@@ -37,15 +37,16 @@ TOLD = [
     ("04d", ("String(data=self.status))", "String(data=self.status)) if msg.data else None"),
      "Publish one status for each reading."),
     ("04e", ('return "High"', 'return "Normal" if self.status == "Low" else "High"'),
-     "Normal was published, and High was due"),
+     "Normal was published, and High should have been"),
     ("08a", ("!= self.mode", "!= 'idle'"), "At 2 s the node published 'driveOn' on /mode; nothing "
-     "was due."),
+     "should have been."),
     ("08a", ("depth=1,", "depth=3,"), "offers RELIABLE, TRANSIENT_LOCAL, a depth of 3"),
     ("08a", ("QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
              "DurabilityPolicy.TRANSIENT_LOCAL"), "policy alone"),
     ("08b", ('(Float32, "reading"', '(String, "reading"'),
      "On /reading, your node uses String and the other side Float32."),
-    ("08c", ("seconds=2", "seconds=3"), "Message 1 on /missed was 1, at 13 s; 1 was due, at 12 s. "
+    ("08c", ("seconds=2", "seconds=3"), "Message 1 on /missed was 1, at 13 s; 1 should have "
+     "been published, at 12 s. "
      "Your subscription has a deadline of 3 s."),
     ("09a", ("timer(3.0", "timer(2.0"), "Lost was due, and the node said lost at 8.5 s."),
     ("09b", ("create_timer(3.0", "create_timer(3.4"), "order 7 was done at 5.9 s"),

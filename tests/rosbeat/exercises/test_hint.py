@@ -36,7 +36,7 @@ def test_each_call_gives_one_hint_more_and_the_answer_last():
 
 
 def test_those_so_far_are_shown_again_and_not_counted():
-    assert "There was no hint yet" in str(hint("03a", again=True))
+    assert "For a first hint: " in str(hint("03a", again=True))
     hint("03a")
     hint("03a")
     for _ in range(2):

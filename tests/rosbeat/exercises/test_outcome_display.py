@@ -9,6 +9,7 @@ import pytest
 from parsed_html import Parsed
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises import outcome_display
+from rosbeat.exercises.check import check
 from rosbeat.exercises.exercise import failed, not_attempted
 from rosbeat.exercises.outcome_display import EDGES, MIME, Shown, highlighted, words
 from rosbeat.records import Outcome, Part
@@ -36,12 +37,41 @@ def test_text_and_html_say_the_same(word):
         assert all(remark in view for remark in shown.outcome.remarks)
 
 
-def test_a_known_mistake_is_named():
-    for mistake, known in MISTAKES.items():
-        for view in views(failed("03a", "Nothing.", "Look.", mistake)):
-            assert "Mistake:" in view
-            assert known.title.split("'")[0] in view
+def test_a_known_mistake_is_told_by_its_evidence_and_only_the_record_has_its_id():
+    for mistake in MISTAKES:
+        shown = Shown(failed("03a", "Nothing.", "Look.", mistake))
+        assert shown.record()["mistake"] == mistake
+        for view in views(shown.outcome):
+            assert "Mistake:" not in view
             assert "recognize this mistake" not in view
+
+
+def test_a_failed_try_has_no_points_to_speak_of():
+    for view in views(replace(failed("03a", "Nothing.", "Look.", "wrong-depth"), out_of=2)):
+        assert "points" not in view
+
+
+PRINTS = """
+class Talker(Node):
+    def __init__(self):
+        super().__init__("talker")
+        print("made")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        print("tick", self.get_clock().now().nanoseconds)
+        self.get_logger().info("a reading")
+"""
+
+
+def test_a_check_shows_the_first_lines_that_a_node_printed_and_logged():
+    space = {}
+    exec(f"from rclpy.node import Node\n{PRINTS}", space)
+    shown = check("03a", space["Talker"])
+    for view in (str(shown), re.sub("<[^>]*>", "\n", shown.html())):
+        assert re.search(r"Your code printed:\s+made\s+tick 1\d+\n", view)
+        assert re.search(r"and 1 more line", view)
+        assert re.search(r"Your node logged:\s+1.00 s  INFO  a reading", view)
 
 
 @pytest.mark.parametrize("mistake", ["new-to-me", "", "a-name-that-nobody-knows"])

@@ -107,6 +107,19 @@ def test_a_package_that_lies_elsewhere_was_created(root):
     assert "sensor_simulator lies in docs" in outcome.evidence
 
 
+@pytest.mark.parametrize("exercise", ["02a", "05a", "06b"])
+def test_a_package_xml_in_src_is_named_and_how_to_remove_it(root, exercise):
+    typed("cp src/sensor_simulator/package.xml src/package.xml", root)
+    if exercise == "02a":  # the blanks were filled in there, and not in the package
+        typed("sed -i 's/<license>.*</<license>TODO</' src/sensor_simulator/package.xml", root)
+    lines = [FIRST_BUILD, "colcon build --symlink-install"] if exercise == "06b" else ["ls"]
+    outcome = judged(exercise, root, *lines)
+    said = " ".join([outcome.evidence, outcome.hint, *outcome.remarks])
+    assert "There is a package.xml in src, so colcon takes src for one package" in said
+    assert '`rm "$ROS2_WORKSPACE"/src/package.xml`' in said
+    assert outcome.status == ("passed" if exercise == "05a" else "failed")
+
+
 @pytest.mark.parametrize(
     ("address", "words"),
     [

@@ -15,7 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from rosbeat.errors import TerminalError, called_as
+from rosbeat.errors import TerminalError, called_as, explain_interrupt
 from rosbeat.records import LogRecord
 from rosbeat.workspace import commands
 from rosbeat.workspace.busy_notice import LONG, Note
@@ -506,9 +506,19 @@ class Terminal:
             if self.busy:
                 command = commands.short(self.command)
                 said = f"`{command}` goes on running in the terminal `{self.name}`."
-            lines = [f"KeyboardInterrupt: {said}"]
-            interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's
+            explain_interrupt(interrupt, said, *self._ways_on())
             raise
+
+    def _ways_on(self) -> tuple[str, ...]:
+        """Return what it means that a program goes on, and how to end it; nothing if none does."""
+        if not self.busy:
+            return ()
+        return (
+            "Interrupt stops the cell that watches, and not the program in the terminal.",
+            f"`%terminal {self.name} --ctrl-c` in a cell of its own stops it. If it waits for "
+            f"input, `%%terminal {self.name} --answer` types the lines below it, and `%terminal "
+            f"{self.name} --ctrl-d` says that there are no more.",
+        )
 
     def _prompt(self) -> str:
         return prompt(self._shell.folder, self._parent)
