@@ -104,7 +104,10 @@ def _holds_package(folder: Path) -> bool:
 
 _EDITORS = {"vi", "vim", "nvim", "view", "nano", "pico", "emacs"}
 _PAGERS = {"less", "more", "most"}
-_FULL_SCREEN = {"top", "htop", "btop", "watch", "tmux", "screen", "mc"} | _EDITORS | _PAGERS
+_CLEARS = {"clear", "reset"}
+_FULL_SCREEN = (
+    {"top", "htop", "btop", "watch", "tmux", "screen", "mc"} | _EDITORS | _PAGERS | _CLEARS
+)
 # With one of these they print something and end.
 _PRINTS = {"--version", "--help", "-h", "-V", "-b", "-bn1"}
 _BEFORE = {"sudo", "exec", "command", "time", "(", "{", "!"}
@@ -121,6 +124,8 @@ def full_screen(line: str) -> str:
         name = Path(rest[0]).name if rest else ""
         if name in _FULL_SCREEN and not _PRINTS & set(rest[1:]):
             instead = "JupyterLab's own terminal can do that: choose File, New, Terminal."
+            if name in _CLEARS:
+                return f"`{name}` has nothing to clear: a page shows only what its cells print."
             if name in _EDITORS:
                 instead = "To edit a file, double-click it in JupyterLab's file browser."
             elif name in _PAGERS:
@@ -151,7 +156,10 @@ def refuse_unfinished(lines: list[str]) -> None:
     found = _UNFINISHED.search(asked.stderr)
     if found is None and not re.search(r"(?<!\\)(\\\\)*\\$", lines[-1]):
         return
+    sign = found and re.search(r"looking for matching `(.)'", found[1])
     said = f' It says "{found[1]}".' if found else ""
+    if sign:
+        said = f" A closing `{sign[1]}` is missing."
     raise TerminalError(
         "The command is not finished: its end is missing.",
         f"bash would wait for the rest.{said} Nothing of the cell was typed.",

@@ -116,7 +116,7 @@ def test_a_mistake_that_needs_no_package(meaning, command, output, text):
         ("source setup.bash", f"bash: setup.bash: {NO_FILE}"),
         ("./tool x", refused("x", "tool")),
         ("ros2 topic list", "/parameter_events\n/rosout\n"),
-        ("ros2 run turtlesim x", "Package 'turtlesim' not found\n"),
+        ("ros2 run nothing_like_it x", "Package 'nothing_like_it' not found\n"),
         ("ros2 pkg create --build-type ament_python a --dependencies rcl+py",
          "Aborted! 'rcl+py' cannot be the name of a package to depend on.\n"),
         # What `ros2` asks itself is not asked again.

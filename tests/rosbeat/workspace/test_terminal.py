@@ -115,8 +115,8 @@ def test_the_folder_is_followed_and_variables_last(seen, home, terminal):
 @pytest.mark.parametrize(
     ("command", "missing"),
     [
-        ('echo "abc', 'matching `"'),
-        ("echo $(", "matching `)'"),
+        ('echo "abc', 'A closing `"` is missing.'),
+        ("echo $(", "A closing `)` is missing."),
         ("for i in 1; do", "unexpected end of file"),
         ("cat <<END\nabc", "(wanted `END')"),
         ("echo a \\", "its end is missing"),
@@ -214,7 +214,8 @@ def test_an_interrupt_leaves_the_command_alone(terminal, seen):
     signal.setitimer(signal.ITIMER_REAL, 0.5)
     with pytest.raises(KeyboardInterrupt) as caught:
         terminal.type("sleep 100", show=str)
-    (line,) = caught.value._render_traceback_()
+    line, *ways = caught.value._render_traceback_()
+    assert "`%terminal sensor --ctrl-c` in a cell of its own stops it" in ways[-1]
     assert line == "KeyboardInterrupt: `sleep 100` goes on running in the terminal `sensor`."
     assert terminal.busy
     assert terminal.ctrl_c(show=str) == 130
