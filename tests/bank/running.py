@@ -30,6 +30,7 @@ def namespace_of(exercise: str, text: str, name: str) -> dict[str, Any]:
         name: The name of its file; tracebacks and faults find its lines under it, as in IPython.
     """
     space: dict[str, Any] = {"__name__": "__main__"}
+    exec("from rosbeat import *", space)  # as the kernel of a page has the names
     exec(imports(exercise), space)
     linecache.cache[name] = (len(text), None, text.splitlines(keepends=True), name)
     exec(compile(text, name, "exec", dont_inherit=True), space)
