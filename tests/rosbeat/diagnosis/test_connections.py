@@ -50,10 +50,18 @@ SILENT = [
     ("no-publisher", seen(ROSOUT, end("publisher", node=ROOM)), "no publisher at all"),
     ("topic-misspelled", seen(end("publisher", "/Temperature")), "capital"),
     ("wrong-topic", seen(end("publisher", "/humidity")), "/humidity instead of /temperature"),
-    ("never-published", seen(end("publisher"), timers=(tick(),), callbacks=RAN), "never used"),
-    ("never-published", seen(end("publisher"), end("subscription", "/a")), "never used"),
+    (
+        "never-published",
+        seen(end("publisher"), timers=(tick(),), callbacks=RAN),
+        "published nothing there",
+    ),
+    (
+        "never-published",
+        seen(end("publisher"), end("subscription", "/a")),
+        "published nothing there",
+    ),
     ("wrong-rate", seen(end("publisher"), timers=(tick(0, 1000.0),)), "1000 s before its first"),
-    ("never-published", seen(end("publisher"), timers=(tick(0),)), "never used"),
+    ("never-published", seen(end("publisher"), timers=(tick(0),)), "published nothing there"),
 ]
 UNHEARD = [
     ("type-mismatch", seen(end("subscription", type_name="std_msgs/msg/String")), "String"),
