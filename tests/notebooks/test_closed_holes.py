@@ -81,7 +81,7 @@ PAGES = {
         "differs": code("print(1)", printed("2\n")),
         "stripped": code("print(1)", count=None),
         "raises": code("1 / 0", count=None),
-        "magic": code("%nosuchmagic", count=None),
+        "magic": code("%alias_magic", count=None),
         "thread": code(THREAD, count=None),
         "still_alive": code("print(1)", count=None),
     },
