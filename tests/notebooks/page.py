@@ -84,7 +84,7 @@ class Cell(IPyNbCell):
         if self.options["check_exception"] and not raised:
             yield "The cell is to raise an exception, and raised none"
         if self.parent.kernel.reply.get("status") == "error" and not raised:
-            yield "The kernel reports an error without a message; a magic that is called wrongly does this"
+            yield "The kernel reports an error without a message, as of a wrongly called magic"
         if self.parent.watch.replaced:
             yield f"The cell replaces outputs ({self.parent.watch.replaced}): not comparable"
         background = self.parent.watch.background_exception()
