@@ -192,7 +192,7 @@ def write_start_hook(layout: Layout) -> None:
 
 def write_lab_defaults(layout: Layout) -> None:
     """Make a first JupyterLab open without asking anything, and without what is for tests only."""
-    for path in _LAB_FILES.rglob("*.json"):
+    for path in lab_files():
         target = layout.venv / path.relative_to(_LAB_FILES)
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, target)  # without the mode: the checkout may be read-only
@@ -201,6 +201,11 @@ def write_lab_defaults(layout: Layout) -> None:
         spec = json.loads(kernel.read_text(encoding="utf-8"))
         spec["display_name"] = KERNEL
         kernel.write_text(json.dumps(spec, indent=1) + "\n", encoding="utf-8")
+
+
+def lab_files() -> list[Path]:
+    """Return the files that say how JupyterLab and the course's kernel begin."""
+    return sorted(_LAB_FILES.rglob("*.json"))
 
 
 def underlay_templates() -> list[Path]:

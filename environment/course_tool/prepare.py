@@ -159,7 +159,8 @@ def fingerprint(layout: Layout, level: str) -> str:
     digest = hashlib.sha256(f"{_REVISION} {level}".encode())
     projects = [folder / "pyproject.toml" for folder in layout.own_packages]
     locks = [layout.lock(level), layout.lock("build"), layout.lock("bootstrap")]
-    for path in [*locks, *projects, *installing.underlay_templates()]:
+    ours = [*installing.underlay_templates(), *installing.lab_files()]
+    for path in [*locks, *projects, *ours]:
         digest.update((path.read_bytes() if path.exists() else b"") + b"\0")
     return digest.hexdigest()
 

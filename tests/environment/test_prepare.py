@@ -227,6 +227,16 @@ def test_whatever_it_was_made_from_makes_it_stale(made, name):
     assert not prepare.is_satisfied(made, "course")
 
 
+def test_what_jupyterlab_and_the_kernel_begin_with_makes_it_stale(made, tmp_path, monkeypatch):
+    prepare.write_stamp(made, "course")
+    assert prepare.is_satisfied(made, "course")
+    shutil.copytree(installing._LAB_FILES, tmp_path / "lab_files")
+    monkeypatch.setattr(installing, "_LAB_FILES", tmp_path / "lab_files")
+    assert prepare.is_satisfied(made, "course")
+    (tmp_path / "lab_files" / installing.KERNEL_CONFIG).write_text("{}")
+    assert not prepare.is_satisfied(made, "course")
+
+
 def test_an_environment_for_tests_serves_learners_too(made):
     prepare.write_stamp(made, "test")
     made.lock("course").write_text("learners' lock alone says little here\n")

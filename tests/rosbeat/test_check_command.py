@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from arrangements import ARRANGEMENTS
 from grading_class import filled, pages_of
 from rosbeat import check_command, cli
 from rosbeat.exercises.hint import answer_to
@@ -71,6 +72,18 @@ def test_a_check_that_is_gone_is_made_as_the_course_makes_it_or_missed(saved, ca
         'Exercise 03b: not checked. No cell of the page checks it, as `check("03b", ...)` does.'
         in (capsys.readouterr().out)
     )
+
+
+@pytest.mark.ros
+def test_every_arrangement_of_right_answers_passes(tmp_path, capsys):
+    paths = []
+    for name, arranged in ARRANGEMENTS.items():
+        paths.append(tmp_path / f"{name}.ipynb")
+        paths[-1].write_text(json.dumps(arranged("03")))
+    code = cli.main(["check", *map(str, paths), "--json"])
+    results = json.loads(capsys.readouterr().out)
+    assert [result for result in results if result["status"] != "passed"] == []
+    assert (code, len(results)) == (0, 3 * len(ARRANGEMENTS))
 
 
 @pytest.mark.parametrize("text", [None, "", "{", "[]", '{"cells": []}', '{"nbformat": 4}'])
