@@ -35,7 +35,6 @@ def register(shell: InteractiveShell) -> None:
         shell: The running shell.
     """
     shell.showsyntaxerror = partial(_show_unread, shell)
-    shell.automagic = False  # or `ls` would list, and `cd` change, the folder of the page
     if not shell.custom_exceptions:
         shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
 

@@ -75,6 +75,19 @@ def test_a_check_that_is_gone_is_made_as_the_course_makes_it_or_missed(saved, ca
 
 
 @pytest.mark.ros
+def test_a_bare_cd_changes_nothing_as_on_the_page(saved, capsys):
+    stays = "import os\n\nassert os.getcwd() == place\n\n"
+    path = saved(a=stays + answer_to("03a"), b=answer_to("03b"), c=answer_to("03c"))
+    document = json.loads(Path(path).read_text())
+    blank = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None}
+    scratch = ["import os\nplace = os.getcwd()", "cd .."]
+    document["cells"][:0] = [{**blank, "source": source} for source in scratch]
+    Path(path).write_text(json.dumps(document))
+    assert cli.main(["check", path]) == 0
+    assert "3 of 3" in capsys.readouterr().out
+
+
+@pytest.mark.ros
 def test_every_arrangement_of_right_answers_passes(tmp_path, capsys):
     paths = []
     for name, arranged in ARRANGEMENTS.items():

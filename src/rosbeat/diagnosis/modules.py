@@ -23,6 +23,7 @@ _NOT_FROM_PIP = (
     *("example_interfaces", "tutorial_interfaces", "launch", "launch_", "ros2_control", "slam_"),
     *("rqt_", "rviz", "usb_cam", "joint_state_publisher", "xacro", "urdf", "rclcpp", "examples_"),
 )
+_PREFIXES = tuple(name for name in _NOT_FROM_PIP if name.endswith("_"))
 _SHIPPED = "`ros2 pkg list` in a terminal lists the packages that are here"
 
 
@@ -40,7 +41,7 @@ def about_name(module: str) -> Diagnosis | None:
             "The Python library of ROS 2 is rclpy: its nodes are classes, derived from "
             "rclpy.node.Node. Code for ROS 1 has to be rewritten.",
         )
-    if any(name == one or (one.endswith("_") and name.startswith(one)) for one in _NOT_FROM_PIP):
+    if name in _NOT_FROM_PIP or name.startswith(_PREFIXES):
         return Diagnosis(
             _ID,
             f"{name} is a package of ROS 2 that is not installed here: the course installs ROS "
@@ -62,19 +63,19 @@ _HIDDEN = re.compile(
 
 
 def about_hidden(text: str, folders: Iterable[Path], then: str = "") -> Diagnosis | None:
-    """Recognise that a file of the learner's hides a module of the same name.
+    """Recognize that a file of the learner's hides a module of the same name.
 
     Args:
         text: The error's text.
         folders: Where Python looks before it looks at what is installed.
         then: What to do after renaming the file, as a sentence; may be empty.
     """
-    found = _HIDDEN.search(text)
-    if not found:
+    hidden = _HIDDEN.search(text)
+    if not hidden:
         return None
-    name = str(found["whole"] or found["source"] or found["owner"])
-    files = (folder / f"{name}.py" for folder in folders)
-    file = next((one for one in files if one.is_file()), None)
+    name = str(hidden["whole"] or hidden["source"] or hidden["owner"])
+    paths = (folder / f"{name}.py" for folder in folders)
+    file = next((path for path in paths if path.is_file()), None)
     if file is None or name not in sys.stdlib_module_names | _OTHERS:
         return None
     return Diagnosis(
@@ -86,17 +87,17 @@ def about_hidden(text: str, folders: Iterable[Path], then: str = "") -> Diagnosi
 
 
 def about_neighbor(text: str, modules: Sequence[tuple[str, str]]) -> Diagnosis | None:
-    """Recognise the import of a module of a package by the file's name alone.
+    """Recognize the import of a module of a package by the file's name alone.
 
     Args:
         text: The error's text.
         modules: The packages of the workspace, each with a module that it has.
     """
-    found = re.search(r"No module named '(\w+)'", text)
-    package = next((one for one, module in modules if found and module == found[1]), "")
-    if not found or not package:
+    missing = re.search(r"No module named '(\w+)'", text)
+    name = missing[1] if missing else ""
+    package = next((package for package, module in modules if module == name), "")
+    if not package:
         return None
-    name = found[1]
     return Diagnosis(
         _ID,
         f"{name}.py is there, in the package {package}, but Python finds it only by the package's "
@@ -107,7 +108,7 @@ def about_neighbor(text: str, modules: Sequence[tuple[str, str]]) -> Diagnosis |
 
 
 def about_relative(text: str) -> Diagnosis | None:
-    """Recognise `from .helper import ...` in a file that is started by itself, or in a cell.
+    """Recognize `from .helper import ...` in a file that is started by itself, or in a cell.
 
     Args:
         text: The error's text.

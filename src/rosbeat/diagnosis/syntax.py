@@ -25,7 +25,8 @@ _COMMAND = re.compile(
 )
 _UNITS = (
     r"(?:ms|us|ns|s|secs?|seconds?|min|minutes?|h|hours?|Hz|kHz|hz|mm|cm|m|km|kg|g|V|A|W"
-    r"|%|°|°?C|°?F|degrees?|deg|times|messages|readings)"
+    # A sign of percent with a value behind it is the operator.
+    r"|%(?!\s*[\w(\[{.+-])|°|°?C|°?F|degrees?|deg|times|messages|readings)"
 )
 _ALREADY = "none of its lines ran"
 
@@ -48,12 +49,11 @@ class Slip:
 
     def __call__(self, line: str, message: str) -> tuple[str, str] | None:
         """Return what it means and what to try, if it is this mistake; else None."""
-        found, said = re.search(self.line, line), re.search(self.message, message)
-        if not found or not said:
+        in_line, in_message = re.search(self.line, line), re.search(self.message, message)
+        if not in_line or not in_message:
             return None
-        groups = found.groups("") or said.groups("")
-        means, to_try = (one.format("", *groups) for one in (self.means, self.to_try))
-        return means, to_try
+        groups = in_line.groups("") or in_message.groups("")
+        return self.means.format("", *groups), self.to_try.format("", *groups)
 
 
 _ANY = ""
@@ -110,14 +110,14 @@ _ROWS = (
     Slip(r"\b(greater|less|bigger|smaller|higher|lower|above|below)\s*(?:than\b|\d)", _ANY,
         "Python does not know the word `{1}`.",
         "Compare with `<`, `>`, `<=` or `>=`."),
-    Slip(r"^\s*(?:if|elif|while)\b", r"Maybe you meant '==' or ':='",
+    Slip(r"^\s*(?:if|elif|while)\b", r"Maybe you meant '=='",
         "A single `=` assigns a value, and a condition compares.",
         "Write `==` in the condition."),
     Slip(r"(\w+(?:-\w+)+)\s*=", r"cannot assign to expression",
         "In `{1}`, the `-` is a minus sign, so it is no name.",
         "Names are made of letters, digits and `_`: write `_` instead of `-`."),
     Slip(_ANY, r"cannot assign to (.+?)(?: here)?\.? Maybe you meant '=='",
-        "There is {1} on the left side of `=`, and only a name can get a value.",
+        "What is on the left side of `=` (Python calls it: {1}) cannot get a value.",
         "To assign, put a name on the left. To compare, write `==`."),
     # Numbers.
     Slip(r"(?<!\w)(\d+[A-Za-z_]\w*)", "invalid decimal literal",
@@ -233,10 +233,10 @@ def about_syntax(error: SyntaxError, cell: str = "") -> tuple[str, str]:
         line = ""
     elif not _UNIT(line, message) and (foreign := _foreign_sign(line)):
         return foreign
-    found = next(filter(None, (row(_without_texts(line), message) for row in rules)), None)
+    recognized = next(filter(None, (rule(_without_texts(line), message) for rule in rules)), None)
     place = f"Line {error.lineno}: " if error.lineno else ""
-    if found:
-        means, to_try = found
+    if recognized:
+        means, to_try = recognized
         place = "" if means.startswith("Line ") else place
         return f"{place}{means} Python can't read the cell, so {_ALREADY}.", to_try
     word = _word_at(error)
@@ -255,8 +255,8 @@ def diagnose_syntax(message: str, line: str) -> Diagnosis | None:
         message: What Python says of it.
         line: The line.
     """
-    found = next(filter(None, (row(_without_texts(line), message) for row in _ROWS)), None)
-    return None if found is None else Diagnosis(_ID, *found)
+    recognized = next(filter(None, (rule(_without_texts(line), message) for rule in _ROWS)), None)
+    return None if recognized is None else Diagnosis(_ID, *recognized)
 
 
 def command_in(cell: str) -> tuple[str, str] | None:
@@ -265,13 +265,13 @@ def command_in(cell: str) -> tuple[str, str] | None:
     Args:
         cell: The cell.
     """
-    lines = [one for one in cell.splitlines() if one.strip() and not one.startswith("# ")]
-    found = _COMMAND.match(lines[0]) if lines else None
-    if not found:
+    lines = [line for line in cell.splitlines() if line.strip() and not line.startswith("# ")]
+    command = _COMMAND.match(lines[0]) if lines else None
+    if not command:
         return None
-    rest = "".join(f" {word}" for word in found["rest"].split()[:2])
+    rest = "".join(f" {word}" for word in command["rest"].split()[:2])
     return (
-        f"`{found['name']}{rest}` is a command for a terminal, and this is a cell of Python.",
+        f"`{command['name']}{rest}` is a command for a terminal, and this is a cell of Python.",
         "Begin the cell with `%%terminal look`, in a line of its own above the command. Then it is "
         "typed into a terminal called `look`.",
     )
@@ -312,7 +312,7 @@ def _open_bracket(cell: str) -> str:
 
 def _without_texts(line: str) -> str:
     """Return a line with nothing in its quotes, and without its comment."""
-    plain = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'", lambda found: found[0][0] * 2, line)
+    plain = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'", lambda quoted: quoted[0][0] * 2, line)
     return (
         re.sub(r"(?<![\"'])#.*", "", plain)
         if "#" in plain and not plain.strip().startswith("#")
@@ -325,5 +325,5 @@ def _word_at(error: SyntaxError) -> str:
     text, offset = error.text or "", error.offset or 0
     if not 0 < offset <= len(text):
         return ""
-    found = re.match(r"\w+|[^\w\s]+", text[offset - 1 :])
-    return found[0] if found else ""
+    word = re.match(r"\w+|[^\w\s]+", text[offset - 1 :])
+    return word[0] if word else ""

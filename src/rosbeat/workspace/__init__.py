@@ -90,6 +90,8 @@ def __dir__() -> list[str]:
 def register(shell: InteractiveShell) -> None:
     """Make the commands of a page known to a shell; a second time changes nothing.
 
+    They begin with `%`, and so do IPython's own on a page: a bare `cd` or `ls` is no command.
+
     Args:
         shell: A running IPython shell.
     """
@@ -108,3 +110,4 @@ def register(shell: InteractiveShell) -> None:
 
     shell.register_magic_function(terminal, "line_cell", "terminal")
     shell.register_magic_function(save, "cell", "save")
+    shell.automagic = False  # or `cd` would change the folder of the page, and not a terminal's
