@@ -194,6 +194,7 @@ class _Inside:
     ) -> None:
         self.control, inner = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.scratch: list[int] = []
+        self.inner = os.fstat(inner.fileno()).st_ino
         with inner:
             try:
                 self.process = subprocess.Popen(
@@ -210,15 +211,26 @@ class _Inside:
                     os.close(descriptor)
         self.first = self.process.pid
         try:
-            self.control.settimeout(_PATIENCE)
-            cloexec = socket.MSG_CMSG_CLOEXEC
-            message, self.scratch, _, _ = socket.recv_fds(self.control, 100, len(SCRATCH), cloexec)
-            if message != READY:
-                raise ConnectionError("a sandbox does not start")
-            self._first_state = self._state()
+            self._wait_until_ready()
         except BaseException:
             self.close()
             raise
+
+    def _wait_until_ready(self) -> None:
+        """Hear from the process inside, for as long as the command is there that starts it."""
+        ended = system_calls.pidfd_open(self.process.pid)
+        try:
+            ready, _, _ = select.select([self.control.fileno(), ended], [], [], _PATIENCE)
+        finally:
+            os.close(ended)
+        message = b""
+        if self.control.fileno() in ready:
+            cloexec = socket.MSG_CMSG_CLOEXEC
+            message, self.scratch, _, _ = socket.recv_fds(self.control, 100, len(SCRATCH), cloexec)
+        if message != READY:
+            raise ConnectionError("a sandbox does not start")
+        self.control.settimeout(_PATIENCE)
+        self._first_state = self._state()
 
     def order(self, order: Order, writing: int) -> None:
         """Have a function run, and hand over the pipe that it writes to; it is closed here."""
@@ -272,6 +284,7 @@ class _Isolated(_Inside):
     def __init__(self, view: View, module: str, environment: Mapping[str, str]) -> None:
         self._handle = -1
         program, proc = bubblewrap()
+        self._began = {os.fsencode(program), module.encode()}
         user = _user()
         if os.getuid() == 0:
             self.user = user
@@ -282,7 +295,7 @@ class _Isolated(_Inside):
             (self.first,) = descendants(self.process.pid)
             self._handle = system_calls.pidfd_open(self.first)
         except (ValueError, OSError) as error:
-            super().close()
+            self.close()
             raise ConnectionError("a sandbox has ended") from error
 
     def memory(self) -> int:
@@ -297,6 +310,23 @@ class _Isolated(_Inside):
             self.process.wait()
             os.close(self._handle)
         super().close()
+        if self._handle < 0:
+            self._end_what_waits()
+
+    def _end_what_waits(self) -> None:
+        """End process 1 of a bubblewrap that was killed before it let that begin.
+
+        It waits for a word of bubblewrap, or goes on: it has not yet been told to end with it
+        (`main` of bubblewrap.c, around where it reads `child_wait_fd`).
+        """
+        end = f"socket:[{self.inner}]"
+        for process in Path("/proc").iterdir():
+            with suppress(OSError):  # it is no process, or has ended
+                holds = any(os.readlink(path) == end for path in (process / "fd").iterdir())
+                words = (process / "cmdline").read_bytes().split(b"\0")
+                # Another thread's child may hold all descriptors until it is a program.
+                if holds and self._began.intersection(words):
+                    os.kill(int(process.name), signal.SIGKILL)
 
 
 class _Unsafe(_Inside):

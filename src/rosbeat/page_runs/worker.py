@@ -137,7 +137,8 @@ def serve(descriptor: int, isolated: bool, prepare: Callable[[], object]) -> Non
     prepare()
     _empty(first)  # libraries of ROS leave something there
     folders = [os.open(path, os.O_RDONLY | os.O_DIRECTORY) for path in first]
-    with socket.socket(fileno=descriptor) as control:
+    # Whoever orders may have ended meanwhile, and nobody listens.
+    with suppress(ConnectionError), socket.socket(fileno=descriptor) as control:
         socket.send_fds(control, [READY], folders)
         while True:
             _, descriptors, _, _ = socket.recv_fds(control, 100, 2, socket.MSG_CMSG_CLOEXEC)

@@ -230,6 +230,33 @@ def fake_bubblewrap(tmp_path, monkeypatch):
     bubblewrap.cache_clear()
 
 
+#: Is killed when it has begun what is to be process 1, which waits for it.
+KILLED_EARLY = """
+import os, signal, sys
+if sys.argv[-1] != "true" and os.fork() == 0:
+    while True:
+        signal.pause()
+if sys.argv[-1] != "true":
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_nothing_waits_for_a_bubblewrap_that_was_killed_early(
+    fake_bubblewrap, tmp_path, eventually
+):
+    program = tmp_path / "killed.py"
+    program.write_text(KILLED_EARLY)
+    (path,) = fake_bubblewrap(f'exec {sys.executable} {program} "$0" "$@"')
+
+    def waiting():
+        processes = psutil.process_iter(["cmdline"])
+        return [process for process in processes if path in (process.info["cmdline"] or ())]
+
+    with deeds_module.sandbox_of(View()) as made, pytest.raises(ConnectionError):
+        made.run(deeds_module.leaves, Limits())
+    eventually(lambda: not waiting(), 20)
+
+
 def test_the_first_that_works_is_taken(fake_bubblewrap):
     _, new, _ = fake_bubblewrap("echo bwrap: Unknown option >&2; exit 1", "exit", "exit")
     assert bubblewrap() == (new, ("--proc", "/proc"))
