@@ -119,6 +119,19 @@ def shares_memory(result):
         kept[-1].write(b"x" * 10_000_000)
 
 
+def shares_with_its_children(result):
+    """Fork often with much in memory, which is there once."""
+    kept = b"x" * 60_000_000
+    children = []
+    for _ in range(6):
+        children.append(os.fork())
+        if children[-1] == 0:
+            time.sleep(0.5)
+            os._exit(len(kept) % 7)
+    for child in children:
+        os.waitpid(child, 0)
+
+
 def prints(result):
     while True:
         os.write(1, b"x" * 100_000)
@@ -297,6 +310,7 @@ def keeps_memory_in_tcp(result):
                     with suppress(BlockingIOError):
                         while reading and pair[1 - begin].recv(1 << 20):
                             pass
+        time.sleep(5)  # it is looked at many times, and ended
     tells(result, {"kept": sent, "pairs": len(kept)})
 
 
@@ -576,7 +590,13 @@ DEEDS = (
     *(maps_in_many_pieces, keeps_pages_in_pipes, makes_namespaces, mounts_in_new_ways),
     *(reaches_init, opens_by_handle, holds_a_lease, stops_itself, adopts_daemons),
     *(waits_for_a_child_that_borrows_its_memory, hides_and_eats, counts_forks),
-    *(fills_with_small_files, digs_deep, changes_the_folders, finds_folders),
+    *(
+        shares_with_its_children,
+        fills_with_small_files,
+        digs_deep,
+        changes_the_folders,
+        finds_folders,
+    ),
 )
 
 

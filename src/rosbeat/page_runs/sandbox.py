@@ -265,9 +265,13 @@ class _Inside:
             for folder in self.scratch
         ]
 
-    def memory(self) -> int:
-        """Return the bytes of memory that are used in there, besides those of process 1."""
-        return sum(map(_memory_of, descendants(self.first)))
+    def memory(self, divided: bool = False) -> int:
+        """Return the bytes of memory that are used in there, besides those of process 1.
+
+        Args:
+            divided: Whether what processes share counts once, and not for each of them.
+        """
+        return sum(_memory_of(process, divided) for process in descendants(self.first))
 
     def close(self) -> None:
         """End it, and wait until nothing of it is there any more."""
@@ -298,9 +302,11 @@ class _Isolated(_Inside):
             self.close()
             raise ConnectionError("a sandbox has ended") from error
 
-    def memory(self) -> int:
+    def memory(self, divided: bool = False) -> int:
         """Return the bytes of memory, of all files, and of what waits in sockets."""
-        return super().memory() + _memory_of_sockets(self.first) + sum(map(_use, self.scratch))
+        return (
+            super().memory(divided) + _memory_of_sockets(self.first) + sum(map(_use, self.scratch))
+        )
 
     def close(self) -> None:
         """End it, and wait until nothing of it is there any more."""
@@ -357,7 +363,9 @@ class _Unsafe(_Inside):
 _LOOK = 0.05
 #: Lines of `/proc/PID/status` that count as memory, in KiB: pages of its own and shared ones, and
 #: tables of pages. Pages of files, as libraries, do not count.
-_COUNTED = (b"RssAnon:", b"RssShmem:", b"VmPTE:")
+_COUNTED, _TABLES = (b"RssAnon:", b"RssShmem:", b"VmPTE:"), (b"VmPTE:",)
+#: The same pages in `/proc/PID/smaps_rollup`, where those of several processes are divided.
+_DIVIDED = (b"Pss_Anon:", b"Pss_Shmem:")
 #: What the two buffers of a socket take when they are full, and how many sockets of a run, and TCP
 #: connections of those, need not count for full ones.
 _BUFFERS, _FREE_SOCKETS, _FREE_TCP = 2 * 212_992, 64, 8
@@ -366,16 +374,32 @@ _BUFFERS, _FREE_SOCKETS, _FREE_TCP = 2 * 212_992, 64, 8
 _MOST_MAPS, _NOTES, _INODE = 1_000_000, 64 * MB, 4096
 
 
-def _memory_of(process: int) -> int:
-    """Return the bytes of memory of a process."""
+def _memory_of(process: int, divided: bool = False) -> int:
+    """Return the bytes of memory of a process.
+
+    Args:
+        process: Its number.
+        divided: Whether pages that it shares with others, as after a fork, are divided among them;
+            to find that out takes a while.
+    """
     total = 0
     with suppress(OSError):
-        lines = Path(f"/proc/{process}/status").read_bytes().splitlines()
-        total = 1024 * sum(int(line.split()[1]) for line in lines if line.startswith(_COUNTED))
+        folder = Path(f"/proc/{process}")
+        total = _sum_of(folder / "status", _COUNTED)
+        if divided:
+            with suppress(PermissionError):  # nobody but root may look into it
+                pages = _sum_of(folder / "smaps_rollup", _DIVIDED)
+                total = pages + _sum_of(folder / "status", _TABLES)
         with open(f"/proc/{process}/maps", "rb") as file:
             if len(file.read(_MOST_MAPS)) >= _MOST_MAPS:
                 total += _NOTES
     return total
+
+
+def _sum_of(file: Path, names: tuple[bytes, ...]) -> int:
+    """Return the sum of some lines of a file of the kernel that are in KiB, in bytes."""
+    lines = file.read_bytes().splitlines()
+    return 1024 * sum(int(line.split()[1]) for line in lines if line.startswith(names))
 
 
 def _use(folder: int) -> int:
@@ -461,7 +485,7 @@ class _Watch:
         self._looked = now
         if now - self._began > self._limits.wall:
             self._stopped = self._stopped or "deadline"
-        elif inside.memory() > self._limits.memory:
+        elif all(inside.memory(divided) > self._limits.memory for divided in (False, True)):
             self._stopped = self._stopped or "memory"
 
     def drain(self) -> None:

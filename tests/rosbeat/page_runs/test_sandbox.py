@@ -109,6 +109,7 @@ def test_it_reaches_itself_and_nobody_else(seen):
         ("keeps_memory_in_tcp", {"memory"}),
         ("fills_with_small_files", {"memory"}),
         ("digs_deep", {"ended"}),
+        ("shares_with_its_children", {"ended"}),
     ],
 )
 def test_each_deed_ends_in_its_own_way(deed, endings, seen):
