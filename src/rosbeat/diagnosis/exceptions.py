@@ -894,7 +894,7 @@ def _no_such_attribute(fault: Fault) -> Diagnosis | None:
             "wrong-attribute",
             f"{owner} has no attribute {name}; it has {meant}.",
             "Compare the two letter by letter."
-            if alike and not plain.startswith(name.lower())
+            if alike and (owner in _OWN_NAMES or not plain.startswith(name.lower()))
             else f"Is that the one you mean? If not, {name} has to be assigned first.",
         )
     return Diagnosis("wrong-attribute", f"{owner} has no attribute {name}.", _where(fault, found))
@@ -902,15 +902,16 @@ def _no_such_attribute(fault: Fault) -> Diagnosis | None:
 
 #: Letters by which a name is longer than another that was not meant.
 _LONGER = 3
+#: Names of objects of rclpy, to which a learner adds none.
+_OWN_NAMES = {"Publisher": ("publish",), "RcutilsLogger": _LEVELS}
 
 
 def _meant(fault: Fault, owner: str, name: str) -> str:
     said = matched(fault, _SUGGESTED)
     if said:
         return said[1]
-    of_its_own = {"Publisher": ("publish",), "RcutilsLogger": _LEVELS}
     plain = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
-    near = get_close_matches(plain, of_its_own.get(owner, NODE_METHODS), 1, 0.8)
+    near = get_close_matches(plain, _OWN_NAMES.get(owner, NODE_METHODS), 1, 0.8)
     return near[0] if near else ""
 
 
@@ -1038,14 +1039,22 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "The decimal sign is a point: {1}.{2}"),
     Row("division-by-zero", r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
         "This line divides by zero, for example by the length of a list that is still empty.",
-        "How many readings are there at the first call?"),
+        "How many readings are there at the first call?",
+        when=lambda fault, _: bool(fault.callback)),
+    Row("division-by-zero", r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
+        "This line divides by zero, for example by the length of a list that is empty.",
+        "Which value on this line is zero? Check for that before the line divides."),
     Row("index-error", r"^IndexError: .*from (an )?empty",
         "The list is empty, so it has no element to take.",
         "When does this line run while the list is still empty? Check that first."),
     Row("index-error", r"^IndexError: .*index out of range",
         "The list has no such index: it is shorter than this line expects.",
         "How long is the list at the first call? Indexes begin at 0, so the last one is the "
-        "length minus one."),
+        "length minus one.",
+        when=lambda fault, _: bool(fault.callback)),
+    Row("index-error", r"^IndexError: .*index out of range",
+        "The list has no such index: it is shorter than this line expects.",
+        "Indexes begin at 0, so the last one is the length minus one."),
     Row("self-missing", r"(\w+)\(\) takes 0 positional arguments but (\d)",
         f"{{1}} {_NO_SELF}",
         _OTHER_DEFS),

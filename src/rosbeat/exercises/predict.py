@@ -233,7 +233,7 @@ class OpenPrediction(Prediction):
         def guess(content: Mapping[str, Any]) -> str:
             made = self.answer(str(content.get("guess", "")))
             if made.sign == OPEN:
-                return words(f"That cannot be compared with what happened: write {self.form}.")
+                return words(_not_comparable(self.form))
             return end(made)
 
         def end(made: Prediction) -> str:
@@ -258,6 +258,11 @@ class MadePrediction(Prediction):
 
         display(self._repr_mimebundle_(), raw=True)
         ExerciseWidget({}, "predict", passed=True).show()
+
+
+def _not_comparable(form: str) -> str:
+    # What happened is not told: the next guess is still to come.
+    return f"That cannot be compared with what happened: write {form}."
 
 
 @called_as('predict("20-30", reading)')
@@ -289,7 +294,7 @@ def predict(
     said, was = in_words(guess), in_words(happened)
     agrees = compared(guess, happened, tolerance)
     if agrees is None:
-        return Prediction(OPEN, f"That cannot be compared with {was}: write {form_of(happened)}.")
+        return Prediction(OPEN, _not_comparable(form_of(happened)))
     made = MadePrediction if cells is not None and cells.for_a_browser else Prediction
     if not agrees:
         return made(WRONG, f"You predicted {said}, and it was {was}. Look at why.", because)

@@ -34,7 +34,7 @@ def full_name(name: str, namespace: str) -> str:
 def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any callable
     """Return the name a learner gave to a function, also when it is a lambda or an object."""
     if callback is None:
-        return "nothing"  # a timer whose callback was left out, or that of a rate
+        return "None"  # the callback of a timer that was given none, or of a rate
     return getattr(callback, "__name__", type(callback).__name__)
 
 

@@ -142,7 +142,7 @@ def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> Non
     Raises:
         UsageError: Then.
     """
-    name, option = given.name, f"--{action.replace('_', '-')}"
+    name, option, sign = given.name, f"--{action.replace('_', '-')}", "%%" if in_cell else "%"
     is_end = action not in ("", "answer")
     # A program is not watched in the same line in which it is ended.
     watching = {"until": given.until, "for": given.seconds}
@@ -152,7 +152,7 @@ def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> Non
     asked = in_cell or action or given.until or given.seconds is not None
     refusals = (
         (not name and asked,
-         f"The terminal's name is missing. Give it one, as in `terminal sensor`.\n{_USAGE}"),
+         f"The terminal's name is missing. Give it one, as in `{sign}terminal sensor`.\n{_USAGE}"),
         (name and not _NAME.fullmatch(name),
          f"`{name}` is not a valid name: use letters, digits, `-` and `_`."),
         (in_cell and is_end,

@@ -14,9 +14,9 @@ SHOWN = [
     (("63", 63), f"✓ You predicted 63, and it was 63.\n  {BECAUSE}"),
     ((60, 63), f"✗ You predicted 60, and it was 63. Look at why.\n  {BECAUSE}"),
     (("20-30", 26), f"✓ You predicted 20-30, and it was 26.\n  {BECAUSE}"),
-    (("?", 63), "○ That cannot be compared with 63: write a number."),
-    (("?", False), "○ That cannot be compared with no: write yes or no."),
-    (("?", [1, 2]), "○ That cannot be compared with [1, 2]: write a list, such as 1, 2, 3."),
+    (("?", 63), "○ That cannot be compared with what happened: write a number."),
+    (("?", False), "○ That cannot be compared with what happened: write yes or no."),
+    (("?", [1, 2]), "○ That cannot be compared with what happened: write a list, such as 1, 2, 3."),
     ((22.3, 22.30003), "✗ You predicted 22.3, and it was 22.30003. Look at why.\n  " + BECAUSE),
 ]
 
