@@ -116,8 +116,9 @@ class Layout:
 
     @property
     def own_packages(self) -> tuple[Path, ...]:
-        """Return what is installed from the checkout itself: rosbeat, and the command `ros2`."""
-        return (self.root, self.root / "src" / "ros2_command")
+        """Return what is installed from the checkout: rosbeat, the command `ros2`, and Rosie."""
+        packages = ("ros2_command", "rosie")
+        return (self.root, *(self.root / "src" / name for name in packages))
 
     @property
     def completions(self) -> Path:

@@ -9,6 +9,7 @@ first time (PEP 562).
 - `values` shows a topic's numbers over virtual time;
 - `queue` shows a subscription's queue filling, emptying and dropping;
 - `message_flow` shows which messages went from one process to another, and which were lost;
+- `robot` shows a robot from above: its way, its room, what its scanner sees;
 - `comparison` shows two runs over each other, and what only one of them has;
 - `diagram` shows where a page is going, and how folders, packages and programs belong together.
 
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from rosbeat.viz.plots import comparison as comparison
     from rosbeat.viz.plots import values as values
     from rosbeat.viz.queues import queue as queue
+    from rosbeat.viz.robots import robot as robot
     from rosbeat.viz.timelines import timeline as timeline
 
 _HOMES = {
@@ -59,6 +61,7 @@ _HOMES = {
     "graph": "graphs",
     "message_flow": "message_flows",
     "queue": "queues",
+    "robot": "robots",
     "timeline": "timelines",
     "values": "plots",
 }

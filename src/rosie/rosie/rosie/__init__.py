@@ -1,0 +1,1 @@
+"""Run Rosie, a robot on wheels that looks after a greenhouse."""
