@@ -16,6 +16,7 @@ FILES = {
     "src/rosbeat.egg-info/PKG-INFO": "SECRET",
     "src/lessons/03_write.py": "SECRET",
     "src/ros2_command/pyproject.toml": "[project]\n",
+    "src/rosie/pyproject.toml": "[project]\n",
     "solutions/03_write.ipynb": "SECRET",
     "tests/test_course.py": "SECRET",
     "docs/exercises.md": "SECRET",

@@ -65,7 +65,7 @@ MAY_IMPORT = {
     # The package itself hands out names of other rooms.
     "rosbeat": {
         *("environment", "viz", "page_errors", "record_display", "page_session", "exercises"),
-        *("workspace", "bags", "clinic", "jupyter_lease", "page_names"),
+        *("workspace", "bags", "clinic", "jupyter_lease", "page_names", "panel"),
     },
 }
 #: What `pip install rosbeat` installs with all that it needs: for tests of any ROS developer.
@@ -125,6 +125,7 @@ FLOORS = (
         {
             *("session_core", "session", "scenario", "tester", "programs", "listening"),
             *("test_nodes", "reports", "entity_watch", "node_lives"),
+            "robot_reporter",
         },
         {"rclpy", "greenlet"},
     ),

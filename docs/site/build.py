@@ -35,8 +35,9 @@ DOCUMENTS = {
         "docs/CONTRIBUTING.md", "docs/CODE_OF_CONDUCT.md", "docs/SECURITY.md",
         "docs/architecture.md", "docs/simulation.md", "docs/distributions.md",
         "docs/authoring.md", "docs/exercises.md",
-        "docs/mutants.md", "docs/claims.md", "src/ros2_command/README.md", "docs/releasing.md",
-        "docs/changelog.md",
+        "docs/mutants.md", "docs/claims.md",
+        "src/ros2_command/README.md", "src/rosie/README.md",
+        "docs/releasing.md", "docs/changelog.md",
     ),
 }  # fmt: skip
 #: Files that documents link to, offered as they are.

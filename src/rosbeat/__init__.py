@@ -1,11 +1,11 @@
 """rosbeat: learn how robots talk.
 
-A learner needs ten names from here: `Session` runs nodes, `viz` draws what a session recorded,
+A learner needs eleven names from here: `Session` runs nodes, `viz` draws what a session recorded,
 `predict` compares what you expect with what happens, `check` looks at the answer to an exercise,
 `hint` helps with it, `quiz` asks the questions of a page, `progress` shows how far you are,
 `workspace` is where packages are built, `bags` keeps recordings of runs, `clinic` has broken
-systems to examine. The course's kernel brings them to every page, and in any other notebook
-`import rosbeat` does.
+systems to examine, `watch_robot` shows a robot live. The course's kernel brings them to every page,
+and in any other notebook `import rosbeat` does.
 Importing the package is quick and does not import ROS: names load when they are first used
 (PEP 562), so that tools which only build or check pages work where ROS is not installed.
 """
@@ -30,11 +30,12 @@ if TYPE_CHECKING:
     from rosbeat.exercises.progress import progress as progress
     from rosbeat.exercises.quiz import quiz as quiz
     from rosbeat.page_session import Session as Session
+    from rosbeat.panel.robot_view import watch_robot as watch_robot
 
 __version__ = "0.1.0"
 __all__ = [
     *("Session", "bags", "check", "clinic", "hint", "predict", "progress", "quiz", "viz"),
-    "workspace",
+    *("watch_robot", "workspace"),
 ]
 
 # Before any message class is imported: the field checks are read at that moment.
@@ -54,6 +55,7 @@ _HOMES = {
     "progress": ("rosbeat.exercises.progress", "progress"),
     "quiz": ("rosbeat.exercises.quiz", "quiz"),
     "viz": ("rosbeat.viz", None),
+    "watch_robot": ("rosbeat.panel.robot_view", "watch_robot"),
     "workspace": ("rosbeat.workspace", None),
 }
 

@@ -219,6 +219,7 @@ def test_a_moved_one_cannot_be_used(made, tmp_path):
         "environment/bootstrap.lock",
         "pyproject.toml",
         "src/ros2_command/pyproject.toml",
+        "src/rosie/pyproject.toml",
     ],
 )
 def test_whatever_it_was_made_from_makes_it_stale(made, name):

@@ -239,8 +239,10 @@ def test_in_a_checkout_it_says_what_to_type(tmp_path, capsys):
     assert not (tmp_path / "mine").exists()
 
 
-def test_the_extra_asks_for_the_ros2_command_of_this_checkout():
-    command = (ROOT / "src" / "ros2_command" / "pyproject.toml").read_text()
-    (version,) = re.findall(r'^version = "(.+)"', command, re.MULTILINE)
-    (asked,) = re.findall(r'"(rosbeat-ros2-command.*)"', (ROOT / "pyproject.toml").read_text())
+@pytest.mark.parametrize("name", ["ros2_command", "rosie"])
+def test_the_extra_asks_for_the_packages_of_this_checkout(name):
+    project = (ROOT / "src" / name / "pyproject.toml").read_text()
+    (version,) = re.findall(r'^version = "(.+)"', project, re.MULTILINE)
+    wanted = f'"(rosbeat-{name.replace("_", "-")}.*)"'
+    (asked,) = re.findall(wanted, (ROOT / "pyproject.toml").read_text())
     assert version in Requirement(asked).specifier

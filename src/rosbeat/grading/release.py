@@ -219,7 +219,14 @@ def _write_marker(target: Path, history: History) -> None:
 # What is in it.
 
 #: Folders of the course that learners get, and single files.
-_FOLDERS = ("environment", "src/rosbeat", "src/ros2_command", ".devcontainer", ".binder")
+_FOLDERS = (
+    "environment",
+    "src/rosbeat",
+    "src/ros2_command",
+    "src/rosie",
+    ".devcontainer",
+    ".binder",
+)
 _FILES = (
     *("pyproject.toml", "LICENSE", "COLCON_IGNORE", "docs/troubleshooting.md"),
     *(".gitignore", ".gitattributes", ".dockerignore"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, degrees, dist, isfinite, pi, sin
@@ -36,6 +36,8 @@ _WIDEST = 420.0
 _NOTHING = 0.005
 
 Place = tuple[float, float]
+#: From meters in the room to pixels of the picture.
+Scale = Callable[[Place], Place]
 
 
 @dataclass(frozen=True)
@@ -220,7 +222,7 @@ def _grid(told: Mapping[str, Any]) -> Grid | None:
 # The picture.
 
 
-def _draw_room(canvas: Canvas, drive: Drive, at: Any, scale: float) -> None:  # noqa: ANN401
+def _draw_room(canvas: Canvas, drive: Drive, at: Scale, scale: float) -> None:
     left, bottom, right, top = drive.bounds()
     corner, size = at((left, bottom)), ((right - left) * scale, (top - bottom) * scale)
     canvas.axes.add_patch(
@@ -242,7 +244,7 @@ def _draw_room(canvas: Canvas, drive: Drive, at: Any, scale: float) -> None:  # 
         )
 
 
-def _draw_robot(canvas: Canvas, drive: Drive, at: Any, scale: float) -> None:  # noqa: ANN401
+def _draw_robot(canvas: Canvas, drive: Drive, at: Scale, scale: float) -> None:
     way = [at(place) for place in drive.places]
     canvas.axes.plot(*zip(*way, strict=True), color=theme.BLUE, lw=1.6, zorder=2)
     if drive.length > _NOTHING:
@@ -268,8 +270,8 @@ def _description(drive: Drive, name: str) -> str:
     (x, y), angle = drive.places[-1], round(degrees(drive.theta)) % 360
     sentences = [f"{who} from above."]
     if drive.grid is not None:
-        wide, high = drive.grid.size
-        sentences = [f"{who} from above, in a room {number(wide)} m wide and {number(high)} m deep."]
+        wide, high = map(number, drive.grid.size)
+        sentences = [f"{who} from above, in a room {wide} m wide and {high} m deep."]
     lasted = drive.times[-1] - drive.times[0]
     if drive.length > _NOTHING:
         begin = drive.places[0]

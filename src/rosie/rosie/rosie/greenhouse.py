@@ -103,7 +103,9 @@ def occupancy(resolution):
     for row in range(height):
         for column in range(width):
             x, y = (column + 0.5) * resolution, (row + 0.5) * resolution
-            cells.append(0 if is_free(x, y, resolution) else 100)
+            is_wall = row in (0, height - 1) or column in (0, width - 1)
+            is_bed = any(bed.distance(x, y) == 0.0 for bed in BEDS)
+            cells.append(100 if is_wall or is_bed else 0)
     return cells, width, height
 
 

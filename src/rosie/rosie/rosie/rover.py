@@ -11,7 +11,7 @@ Drive Rosie through her greenhouse.
 | `reset` | service, `std_srvs/srv/Empty`: back to the door |
 | `step` | service, `std_srvs/srv/Trigger`: a quarter of a meter ahead, unless a wall is there |
 | `set_lamp` | service, `std_srvs/srv/SetBool` |
-| `visit_beds` | action, `test_msgs/action/Fibonacci`: visit so many beds, and feel each one's warmth |
+| `visit_beds` | action, `test_msgs/action/Fibonacci`: visit so many beds, feel how warm they are |
 | `speed_limit` | parameter: meters a second |
 | `patience` | parameter: seconds for which she follows a command |
 
@@ -42,8 +42,8 @@ POSE_PERIOD, SCAN_PERIOD = 0.1, 0.2
 RAYS, SHORTEST, LONGEST = 72, 0.05, 5.0
 STEP = 0.25
 CELL = 0.1
-#: What late joiners get: the last message.
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+#: Those who join late get the last message.
+LAST_ONE = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def bounded(value, limit):
@@ -80,8 +80,8 @@ class Rover(Node):
 
         self.pose_publisher = self.create_publisher(Pose2D, 'pose', 10)
         self.scan_publisher = self.create_publisher(LaserScan, 'scan', 10)
-        self.map_publisher = self.create_publisher(OccupancyGrid, 'map', LATCHED)
-        self.lamp_publisher = self.create_publisher(Bool, 'lamp', LATCHED)
+        self.map_publisher = self.create_publisher(OccupancyGrid, 'map', LAST_ONE)
+        self.lamp_publisher = self.create_publisher(Bool, 'lamp', LAST_ONE)
         self.create_subscription(Twist, 'cmd_vel', self.follow, 10)
         self.create_service(Empty, 'reset', self.reset)
         self.create_service(Trigger, 'step', self.step)
@@ -117,20 +117,23 @@ class Rover(Node):
 
     def move(self):
         """Move on by what the last command asks for, and tell where she is."""
-        now = self.get_clock().now()
-        seconds = (now - self.moved_at).nanoseconds / 1e9
-        self.moved_at = now
+        before, self.moved_at = self.moved_at, self.get_clock().now()
+        seconds = (self.moved_at - before).nanoseconds / 1e9
+        if seconds <= 0.0:
+            return  # a simulated clock was set back
         if self.tour is not None:
             self.steer(seconds)
         else:
-            self.advance(*self.wanted_speeds(now), seconds)
+            self.advance(*self.wanted_speeds(), seconds)
         self.pose_publisher.publish(Pose2D(
             x=self.pose.x, y=self.pose.y, theta=self.pose.theta))
 
-    def wanted_speeds(self, now):
+    def wanted_speeds(self):
         """Return the speeds ahead and around that the last command asks for, if it still holds."""
         patience = self.get_parameter('patience').value
-        if self.command_time is None or (now - self.command_time).nanoseconds >= patience * 1e9:
+        if self.command_time is None:
+            return 0.0, 0.0
+        if (self.moved_at - self.command_time).nanoseconds >= patience * 1e9:
             return 0.0, 0.0
         limit = self.get_parameter('speed_limit').value
         return (
@@ -155,7 +158,7 @@ class Rover(Node):
             new_x, new_y, math.remainder(theta + turn * seconds, math.tau))
 
     def scan(self):
-        """Publish how far the walls are in every direction, counterclockwise from straight ahead."""
+        """Publish how far the walls are all around, counterclockwise from straight ahead."""
         step = math.tau / RAYS
         x, y, theta = self.pose
         scan = LaserScan(
