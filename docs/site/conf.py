@@ -53,6 +53,10 @@ html_copy_source = False
 html_show_sourcelink = False
 
 
+#: Words of code up to this length stay in one piece: no line ends after a hyphen in them.
+_SHORT = 24
+
+
 class PageLexer(Lexer):
     """Color a cell as the language in it: a file of %%save, the commands of %%terminal, Python."""
 
@@ -93,6 +97,13 @@ def explain_terms(app: Sphinx, tree: nodes.document, name: str) -> None:
             link["reftitle"] = meanings[anchor]
 
 
+def keep_words_whole(app: Sphinx, tree: nodes.document, name: str) -> None:
+    """Mark code of short words, so that a narrow window breaks it between them."""
+    for code in tree.findall(nodes.literal):
+        if max(map(len, code.astext().split()), default=0) <= _SHORT:
+            code["classes"].append("short")
+
+
 def _meanings(glossary: Path) -> dict[str, str]:
     """Return the text of each term by its anchor, without links and without its page."""
     found = {}
@@ -108,3 +119,4 @@ def setup(app: Sphinx) -> None:
     """Register what this site adds to Sphinx."""
     app.add_lexer("rosbeat-page", PageLexer)
     app.connect("doctree-resolved", explain_terms)
+    app.connect("doctree-resolved", keep_words_whole)

@@ -1,8 +1,7 @@
 """Makes a page that is read: what a learner would see of it, and what answers it in folded boxes.
 
 The lesson's source says which cell is an exercise, a prediction or a quiz, and holds the blanks;
-the executed page of `solutions/` holds the answers and the outputs. A learner's own page in
-`notebooks/` is never looked at: somebody may have worked in it.
+the executed page of `solutions/` holds the answers and the outputs.
 """
 
 from __future__ import annotations
@@ -59,6 +58,7 @@ class _Page:
         lesson: The source of the page.
         solved: The cells of the executed page, by their ids.
         answers: The answer to the exercise at hand, until its check has come.
+        boxes: How many boxes there are so far.
     """
 
     lesson: Lesson
@@ -72,7 +72,7 @@ class _Page:
         rest = list(self.lesson.cells)
         while rest:
             cell = rest.pop(0)
-            if cell.source == "progress()":  # that of whoever built the page
+            if cell.source.endswith("progress()"):  # that of whoever built the page
                 continue
             if cell.predict:
                 shown += [self._asked(cell), *self._prediction(cell, _answering(rest))]
@@ -106,7 +106,7 @@ class _Page:
         solved = self.solved[cell.id]
         source = "".join(solved["source"])
         if cell.kind == "markdown":
-            return _text(cell.id, HOME_LINK.sub("](../index.md#the-pages)", source))
+            return _text(cell.id, source)
         return {**solved, "source": source, "outputs": _outputs(solved)}
 
     def _shown(self, cell: SourceCell) -> Cell:
@@ -126,11 +126,14 @@ class _Page:
 
     def _variants(self, cells: list[SourceCell]) -> list[Cell]:
         """Return what differs between the page and its solution: the page's, and a box for it."""
-        if any(cell.source.startswith("quiz(") for cell in cells):
-            return list(self._questions())
-        asked = [self._asked(cell) for cell in cells if cell.only == "notebook"]
-        made = [self._made(cell) for cell in cells if cell.only == "solution"]
-        return asked + (self._folded("How the solution does it", made) if made else [])
+        others = [cell for cell in cells if not cell.source.startswith("quiz(")]
+        asked = [self._asked(cell) for cell in others if cell.only == "notebook"]
+        made = [self._made(cell) for cell in others if cell.only == "solution"]
+        return [
+            *asked,
+            *(self._folded("How the solution does it", made) if made else []),
+            *(self._questions() if len(others) < len(cells) else []),
+        ]
 
     def _questions(self) -> Iterator[Cell]:
         for question in QUESTIONS[self.lesson.number]:
@@ -172,7 +175,9 @@ def _group(rest: list[SourceCell], *trees: str) -> list[SourceCell]:
 
 
 def _text(name: str, source: str) -> Cell:
-    return {"cell_type": "markdown", "id": name, "metadata": {}, "source": source}
+    """Return a cell of text, in which a link to the home page leads to that of the site."""
+    linked = HOME_LINK.sub("](../index.md#the-pages)", source)
+    return {"cell_type": "markdown", "id": name, "metadata": {}, "source": linked}
 
 
 def _outputs(cell: Cell) -> list[Cell]:

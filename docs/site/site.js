@@ -1,5 +1,5 @@
 // Says of what is wider than the window that it scrolls, and lets the keyboard scroll it.
-const WIDE = "figure.rosbeat-picture, .bd-article pre, .bd-article .pst-scrollable-table-container"
+const WIDE = ["figure.rosbeat-picture", 'p:has(> img[src$=".svg"])', "pre", ".pst-scrollable-table-container"]
 
 function mark(box) {
   const hidden = box.scrollWidth - box.clientWidth
@@ -12,7 +12,7 @@ function mark(box) {
 document.addEventListener("DOMContentLoaded", () => {
   // It is called at once, when the window changes, and when a box of answers opens.
   const watch = new ResizeObserver((entries) => entries.forEach((entry) => mark(entry.target)))
-  for (const box of document.querySelectorAll(WIDE)) {
+  for (const box of document.querySelectorAll(`.bd-article :is(${WIDE})`)) {
     watch.observe(box)
     box.addEventListener("scroll", () => mark(box), { passive: true })
   }
