@@ -87,14 +87,21 @@ def site(layout: Layout, arguments: Sequence[str]) -> int:
     """Build the site of the course; `docs/site/build.py` says what the arguments mean.
 
     Sphinx and its theme come from a lock of their own, into an environment of uv's: neither a
-    learner's `.venv` nor the tests grow by them.
+    learner's `.venv` nor the tests grow by them. What the site is built from, the course's own
+    Python lays out: it knows the lessons.
     """
     environ = installing.for_installers(layout, prepare.ready(layout, "course"))
-    command: list[str | Path] = [
-        *(layout.uv, "run", "--quiet", "--isolated", "--no-project", "--python", layout.python),
-        *("--with-requirements", layout.lock("site"), layout.root / "docs" / "site" / "build.py"),
-    ]
-    return subprocess.call([*command, *arguments], env=environ)
+    here = layout.root / "docs" / "site"
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "source"
+        code = subprocess.call([layout.python, here / "stage.py", source], env=environ)
+        if code:
+            return code
+        command: list[str | Path] = [
+            *(layout.uv, "run", "--quiet", "--isolated", "--no-project", "--python", layout.python),
+            *("--with-requirements", layout.lock("site"), here / "build.py", "--source", source),
+        ]
+        return subprocess.call([*command, *arguments], env=environ)
 
 
 def lock(layout: Layout, options: Sequence[str]) -> int:
