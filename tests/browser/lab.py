@@ -1,7 +1,8 @@
-"""A real JupyterLab in a folder of its own."""
+"""A real JupyterLab in a folder of its own, with the looks and settings of the course."""
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -11,9 +12,10 @@ from pathlib import Path
 
 from rosbeat.domains import lease_domain
 
-_QUIET = {
-    "@jupyterlab/apputils-extension:notification": {"checkForUpdates": False, "fetchNews": "false"}
-}
+_COURSE = Path(__file__).parents[2] / "environment"
+#: The style sheet that `course lab` adds to JupyterLab.
+STYLE = _COURSE / "lab_style" / "custom.css"
+_SETTINGS = _COURSE / "course_tool" / "lab_files" / "share" / "jupyter" / "lab" / "settings"
 _DEADLINE = 90
 
 
@@ -50,14 +52,14 @@ def lab_server(folder, root):
 
 def _options(folder, root):
     settings = folder / "settings"
-    settings.mkdir()
-    (settings / "overrides.json").write_text(json.dumps(_QUIET))
+    shutil.copytree(_SETTINGS, settings)
     return [
         *("--no-browser", "--allow-root", "--ServerApp.port=0", "--ServerApp.token="),
         *("--ServerApp.password=", "--ServerApp.disable_check_xsrf=True"),
         *(f"--ServerApp.root_dir={root}", f"--LabApp.app_settings_dir={settings}"),
         f"--LabApp.user_settings_dir={folder / 'user'}",
-        "--LabApp.expose_app_in_browser=True",
+        *("--LabApp.expose_app_in_browser=True", "--LabApp.custom_css=True"),
+        f"--ServerApp.tornado_settings={ {'static_custom_path': [str(STYLE.parent)]}!r}",
     ]
 
 

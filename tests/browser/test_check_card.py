@@ -1,7 +1,5 @@
 """The card of a check in a real browser: its buttons, by mouse and by keyboard."""
 
-from pathlib import Path
-
 import nbformat
 import pytest
 from playwright.sync_api import expect
@@ -19,7 +17,6 @@ from rosbeat import check
 WRONG = solution("03a").replace('"humidity", 5', '"humidity", 10')
 CHECK = 'check("03a", HumiditySensor)'
 BUTTONS = ".rosbeat-check"
-STYLE = Path(__file__).parents[2] / "environment" / "lab_style" / "custom.css"
 #: A cell that runs until a file is there, and a check that then does the same.
 WAITS = """
 import time
@@ -144,7 +141,6 @@ def test_a_page_that_was_loaded_anew_has_the_buttons_and_what_they_say(notebook,
 def test_buttons_are_hidden_once_their_kernel_is_gone_and_other_widgets_stay(notebook, page, lab):
     notebook.write(0, "from ipywidgets import Button\nButton(description='Plain')")
     notebook.run(0)
-    page.add_style_tag(path=STYLE)
     for name in ("Plain", "Hint"):
         expect(page.get_by_role("button", name=name, exact=True)).to_be_visible()
     notebook.save()
@@ -153,7 +149,6 @@ def test_buttons_are_hidden_once_their_kernel_is_gone_and_other_widgets_stay(not
     dead = page.locator(".jp-OutputArea-child", has=page.locator("> .jupyter-widgets"))
     expect(dead).to_have_count(2)
     expect(dead.first).to_be_visible()  # of others; ours say that the cell is to be run again
-    page.add_style_tag(path=STYLE)
     for one in dead.all():
         expect(one).to_be_hidden()
 

@@ -97,6 +97,8 @@ def test_jupyterlab_opens_without_questions(made):
         "checkForUpdates": False,
         "fetchNews": "false",
     }
+    # Messages name the lines of cells.
+    assert settings["@jupyterlab/notebook-extension:tracker"]["codeCellConfig"]["lineNumbers"]
 
 
 def test_the_kernel_has_the_courses_name_and_is_the_only_one(made):

@@ -66,7 +66,6 @@ class EntryPoint:
 
     Attributes:
         text: The whole string.
-        line: Its line in `file`, counted from 1; 0 if a program has calculated it.
         executable: The name before `=`.
         module: The module before `:`.
         function: The function after `:`, or empty.
@@ -75,7 +74,6 @@ class EntryPoint:
     """
 
     text: str
-    line: int
     executable: str
     module: str
     function: str
@@ -88,7 +86,7 @@ class EntryPoint:
         return self.pieces > 1 and len(_EQUALS.findall(self.text)) > 1
 
 
-def entry_point(text: str, line: int, pieces: int = 1, file: str = "setup.py") -> EntryPoint:
+def entry_point(text: str, pieces: int = 1, file: str = "setup.py") -> EntryPoint:
     """Return the parts of an entry point, such as `talk = rosie.voice:main`.
 
     Args:
@@ -100,7 +98,7 @@ def entry_point(text: str, line: int, pieces: int = 1, file: str = "setup.py") -
     executable, _, target = text.partition("=")
     module, _, function = target.partition(":")
     parts = (executable.strip(), module.strip(), function.split("[")[0].strip())
-    return EntryPoint(text, line, *parts, pieces, file)
+    return EntryPoint(text, *parts, pieces, file)
 
 
 @dataclass(frozen=True)
@@ -112,7 +110,7 @@ class SetupScript:
         entry_points: The console scripts.
         incomplete: Whether there may be console scripts that were not found.
         problem: Why the file cannot be read, or empty.
-        line: The line of that problem, or 0.
+        place: Where in the file that problem is, or empty.
         keywords: The keyword arguments of `setup`, sorted.
         groups: The groups of entry points, sorted.
         packages: Patterns of the Python packages that it installs; None if unknown.
@@ -126,7 +124,7 @@ class SetupScript:
     entry_points: tuple[EntryPoint, ...] = ()
     incomplete: bool = False
     problem: str = ""
-    line: int = 0
+    place: str = ""
     keywords: tuple[str, ...] = ()
     groups: tuple[str, ...] = ()
     packages: tuple[str, ...] | None = None
@@ -164,14 +162,14 @@ class Flaw:
         entry: The entry point.
         wrong: The part that is wrong.
         right: What was probably meant, or empty.
-        line: The line of the module in which a syntax error is, or 0.
+        place: Where in the module a syntax error is, or empty.
     """
 
     kind: str
     entry: EntryPoint
     wrong: str
     right: str = ""
-    line: int = 0
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -226,12 +224,12 @@ class Package:
         """Return whether `setup.cfg` installs executables where `ros2 run` looks for them."""
         return self.scripts_folder == f"$base/lib/{self.name}"
 
-    def module_with_syntax_error(self) -> tuple[str, int] | None:
-        """Return the first module that Python cannot read and the line, or None."""
+    def module_with_syntax_error(self) -> tuple[str, str] | None:
+        """Return the first module that Python cannot read and the place, or None."""
         for module in self.modules:
-            line = top_level_names(self.folder / self.name / f"{module}.py")[1]
-            if line:
-                return module, line
+            place = top_level_names(self.folder / self.name / f"{module}.py")[1]
+            if place:
+                return module, place
         return None
 
 
@@ -268,8 +266,18 @@ def parse(text: str | bytes) -> ast.Module:
     return tree
 
 
-def top_level_names(path: Path) -> tuple[list[str] | None, int]:
-    """Return the names that a module defines, and the line of its syntax error or 0.
+def place_of(error: SyntaxError) -> str:
+    """Return where an error of syntax is in a file: the number of the line, and the line itself.
+
+    A learner who saved the file from a cell finds the line by its text: there, the line of `%%save`
+    comes first.
+    """
+    code = (error.text or "").strip()
+    return f"line {error.lineno or 1}" + (f" (`{code}`)" if code else "")
+
+
+def top_level_names(path: Path) -> tuple[list[str] | None, str]:
+    """Return the names that a module defines, and the place of its syntax error, or nothing.
 
     Args:
         path: The file of the module.
@@ -280,11 +288,11 @@ def top_level_names(path: Path) -> tuple[list[str] | None, int]:
     try:
         tree = parse(path.read_bytes())
     except SyntaxError as error:
-        return [], error.lineno or 1
+        return [], place_of(error)
     except (OSError, ValueError, RecursionError, MemoryError):
-        return None, 0
+        return None, ""
     names = [name for node in tree.body for name in _names_of(node)]
-    return (None, 0) if "*" in names else (names, 0)
+    return (None, "") if "*" in names else (names, "")
 
 
 def _names_of(node: ast.stmt) -> list[str]:
@@ -342,9 +350,9 @@ def _flaw_of_target(entry: EntryPoint, folder: Path) -> Flaw | None:
     path = _module_file(entry.module, folder)
     if path is None:
         return Flaw("no-module", entry, entry.module, _nearest_module(entry.module, folder))
-    names, line = top_level_names(path)
-    if line:
-        return Flaw("syntax-error", entry, entry.module, line=line)
+    names, place = top_level_names(path)
+    if place:
+        return Flaw("syntax-error", entry, entry.module, place=place)
     if names is not None and entry.function.split(".")[0] not in names:
         return Flaw("no-function", entry, entry.function, nearest(entry.function, names) or "")
     return None
@@ -359,23 +367,22 @@ def _nearest_module(module: str, folder: Path) -> str:
 
 _NAMED = "The entry point {entry.executable} in {entry.file} names "
 BROKEN = Diagnosis("syntax-error",
-    "Python cannot read {path}: there is a syntax error on line {line} or just before it.",
+    "Python cannot read {path}: there is a syntax error on {place} or just before it.",
     "colcon copies modules without running them, so the build does not detect the error. Correct "
     "that line and build again.")  # fmt: skip
 #: What is said about each kind of flaw of an entry point; `{wrong}` is the part that is wrong, and
 #: `{right}` what was probably meant.
 FLAWS = {
     "missing-comma": Diagnosis("comma-missing",
-        "A comma is missing in {entry.file}, between the entry point on line {entry.line} and "
-        "the next one: without it, Python joins two adjacent strings into one.",
+        "A comma is missing in {entry.file}, between the entry point {entry.executable} and the "
+        "next one: without it, Python joins two adjacent strings into one.",
         "Put a comma at the end of every entry point."),
     "form": Diagnosis("entry-point-form",
-        "The entry point on line {entry.line} of {entry.file} is not of the form  name = "
+        "The entry point `{entry.text}` in {entry.file} is not of the form  name = "
         "package.module:function.",
         "Write a name, a single `=`, and the function, as in  'name = package.module:main'."),
     "slash": Diagnosis("slash-in-module",
-        "The entry point on line {entry.line} of {entry.file} names its module with a `/`, like a "
-        "path.",
+        f"{_NAMED}its module with a `/`, like a path.",
         "The parts of a Python module's name are separated by dots: {right}"),
     "suffix": Diagnosis("entry-point-target",
         f"{_NAMED}a file, {{wrong}}.",
@@ -388,8 +395,7 @@ FLAWS = {
         "names a function without calling it.",
         "Leave out the parentheses: write {right}"),
     "no-module": Diagnosis("entry-point-target",
-        "The entry point {entry.executable} on line {entry.line} of {entry.file} names the "
-        "module {wrong}, which does not exist.",
+        f"{_NAMED}the module {{wrong}}, which does not exist.",
         "Did you mean {right}?"),
     "syntax-error": BROKEN,
     "no-function": Diagnosis("entry-point-target",

@@ -784,7 +784,7 @@ def _broken_module(package: Package, _: str) -> Diagnosis | None:
     broken = package.module_with_syntax_error()
     if not broken:
         return None
-    said = BROKEN.evidence.format(path=f"{package.name}/{broken[0]}.py", line=broken[1])
+    said = BROKEN.evidence.format(path=f"{package.name}/{broken[0]}.py", place=broken[1])
     return Diagnosis(BROKEN.mistake, said, BROKEN.hint)
 
 
@@ -828,8 +828,8 @@ _NO_MARKER = PackageRow("marker-missing",
     "empty marker file.",
     "Create it again in the package's folder: touch resource/{name}")  # fmt: skip
 _SETUP_UNREADABLE = PackageRow("syntax-error",
-    lambda package, _: package.setup.line,
-    "Python cannot read the setup.py of {name}: {setup.problem}, on line {setup.line} or just "
+    lambda package, _: package.setup.place,
+    "Python cannot read the setup.py of {name}: {setup.problem}, on {setup.place} or just "
     "before it.",
     f"Look for a missing quote, comma or bracket there. {_STILL}")  # fmt: skip
 _SETUP_NOT_CALLED = PackageRow("no-setup-call",
@@ -1041,8 +1041,8 @@ def _runs_a_build(seen: Situation, package: Package) -> bool:
 def _refused_since(package: Package, name: str) -> Diagnosis | None:
     """Recognise that a build of this source fails, so an older one runs (22)."""
     setup, flaw = package.setup, _refused_flaw(package, name)
-    if setup.line:
-        said = f"Python cannot read setup.py: {setup.problem}, on line {setup.line}."
+    if setup.place:
+        said = f"Python cannot read setup.py: {setup.problem}, on {setup.place}."
         return Diagnosis("syntax-error", said, _BEFORE)
     return replace(flaw, hint=f"{flaw.hint} {_BEFORE}") if flaw else None
 

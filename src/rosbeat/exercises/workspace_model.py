@@ -101,10 +101,10 @@ def diagnose_script(package: Package) -> Diagnosis | None:
             f"setup.py cannot be used: {setup.problem}.",
             f"setup(...) has to be called when the file is run, without indentation. {SETUP_ANEW}",
         )
-    if setup.problem and not setup.line and "No such file" in setup.problem:
+    if setup.problem and not setup.place and "No such file" in setup.problem:
         return Diagnosis("marker-missing", "setup.py is gone.", SETUP_ANEW)
     if setup.problem:
-        where = f", line {setup.line}" if setup.line else ""
+        where = f", {setup.place}" if setup.place else ""
         return Diagnosis(
             "syntax-error",
             f"setup.py cannot be read: {setup.problem}{where}.",

@@ -36,6 +36,7 @@ from rosbeat.diagnosis.packages import (
     entry_point,
     flaw_of,
     parse,
+    place_of,
 )
 from rosbeat.diagnosis.topic_snapshot import StaleBuild
 from rosbeat.workspace.location import VARIABLE, workspace
@@ -163,7 +164,7 @@ def _with_configured(setup: SetupScript, parser: configparser.ConfigParser) -> S
     if setup.groups or setup.incomplete or not parser.has_section(section):
         return setup
     lines = parser.get(section, "console_scripts", fallback="")
-    entries = tuple(entry_point(one, 1, 1, "setup.cfg") for one in _lines(lines))
+    entries = tuple(entry_point(one, file="setup.cfg") for one in _lines(lines))
     return replace(setup, entry_points=entries, groups=tuple(sorted(parser[section])))
 
 
@@ -203,14 +204,14 @@ def read_setup(path: Path) -> SetupScript:
     except OSError as error:
         return SetupScript(problem=error.strerror or "it cannot be read")
     except SyntaxError as error:
-        return SetupScript(problem=_DETECTED.sub("", error.msg), line=error.lineno or 0)
+        return SetupScript(problem=_DETECTED.sub("", error.msg), place=place_of(error))
     except (ValueError, RecursionError, MemoryError) as error:
         return SetupScript(problem=str(error) or type(error).__name__)
     calls = [one for one in ast.walk(tree) if isinstance(one, ast.Call) and _ends(one, "setup")]
     given = _given(tree, calls[0], path) if calls else None
     if given is None:
         return SetupScript(problem=NO_CALL)
-    return _script(given, source, tree, calls[0])
+    return _script(given, source, tree)
 
 
 def _ends(call: ast.Call, name: str) -> bool:
@@ -310,7 +311,7 @@ def _string_list(value: object) -> tuple[str, ...] | None:
     return tuple(value) if all(isinstance(one, str) for one in value) else None
 
 
-def _script(given: _Given, source: str, tree: ast.Module, call: ast.Call) -> SetupScript:
+def _script(given: _Given, source: str, tree: ast.Module) -> SetupScript:
     values, name = given.values, given.values.get("name")
     groups = _groups(values.get("entry_points", {}))
     programs = [
@@ -322,7 +323,7 @@ def _script(given: _Given, source: str, tree: ast.Module, call: ast.Call) -> Set
     about = {key: values.get(key) for key in _ABOUT}
     return SetupScript(
         package_name=name if isinstance(name, str) else "",
-        entry_points=tuple(_placed(one, source, tree, call) for one in programs),
+        entry_points=tuple(_in_source(one, source, tree) for one in programs),
         incomplete=not given.complete or groups is None,
         keywords=tuple(sorted(values)),
         groups=tuple(sorted(groups or ())),
@@ -351,16 +352,12 @@ def _lines(scripts: object) -> list[str]:
     return [one for one in scripts if isinstance(one, str)] if isinstance(scripts, list) else []
 
 
-def _placed(text: str, source: str, tree: ast.Module, call: ast.Call) -> EntryPoint:
-    """Return an entry point with its place; a calculated one is where `setup` is called."""
-    texts = [one for one in ast.walk(tree)
-             if isinstance(one, ast.Constant) and isinstance(one.value, str)]  # fmt: skip
-    for node in texts:
-        if node.value == text:
-            segment = ast.get_source_segment(source, node) or ""
-            return entry_point(text, node.lineno, _count_strings(segment))
-    lines = (node.lineno for node in texts if text in str(node.value))
-    return entry_point(text, next(lines, call.lineno))
+def _in_source(text: str, source: str, tree: ast.Module) -> EntryPoint:
+    """Return an entry point with the number of its pieces, which is 1 if it was calculated."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and node.value == text:
+            return entry_point(text, _count_strings(ast.get_source_segment(source, node) or ""))
+    return entry_point(text)
 
 
 def _count_strings(expression: str) -> int:

@@ -227,9 +227,9 @@ def entry_points(root: Path) -> str:
     path = f"src/{PACKAGE}/setup.py"
     setup = read_package(root / "src" / PACKAGE, root).setup
     if setup.problem:
-        line = f" (line {setup.line})" if setup.line else ""
+        where = f", {setup.place}" if setup.place else ""
         raise InTheWay(
-            f"{path} cannot be read: {setup.problem}{line}. Page 05 goes through it line by line."
+            f"{path} cannot be read: {setup.problem}{where}. Page 05 goes through it line by line."
         )
     missing = sorted(set(NODES) - {one.executable for one in setup.entry_points})
     if not missing:

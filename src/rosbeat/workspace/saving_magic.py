@@ -64,7 +64,7 @@ def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
     text = with_definitions(cell, copied, shell.user_ns.get("In", ())) if wanted else cell
     blank = blank_line(text)
     if blank:
-        print(f"not saved: there is still a blank in line {blank} of {relative.name}")
+        print(f"not saved: there is still a blank in {relative.name}, in the line `{blank}`")
     else:
         print(save(str(relative), text, root))
     relied_on = names_relied_on(shell, text) if relative.suffix == ".py" and not blank else []
@@ -160,10 +160,9 @@ def module_name(relative: PurePosixPath, root: Path) -> str | None:
     return ".".join(folders if inside.name == "__init__" else inside.parts) if is_inside else None
 
 
-def blank_line(text: str) -> int:
-    """Return the number of the first line that holds a blank `____`, or 0 if there is none."""
-    found = _BLANK.search(text)
-    return text.count("\n", 0, found.start()) + 1 if found else 0
+def blank_line(text: str) -> str:
+    """Return the first line that holds a blank `____`, or nothing if there is none."""
+    return next((line.strip() for line in text.splitlines() if _BLANK.search(line)), "")
 
 
 def is_python(text: str) -> bool:

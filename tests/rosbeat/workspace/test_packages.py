@@ -53,7 +53,7 @@ def test_the_finished_one(root, package):
     assert [one.executable for one in found.setup.entry_points] == list(NODES)
     first = found.setup.entry_points[0]
     assert (first.module, first.function) == (NAME, "main")
-    assert first.text in finished("setup.py").splitlines()[first.line - 1]
+    assert first.text in finished("setup.py")
 
 
 def test_what_is_missing_or_broken(root, package):
@@ -65,7 +65,7 @@ def test_what_is_missing_or_broken(root, package):
     (package / "test" / "test_a.py").touch()
     found = read_package(package, root)
     assert [found.has_marker, found.has_init, found.scripts_are_found] == [False] * 3
-    assert found.module_with_syntax_error() == ("broken", 1)
+    assert found.module_with_syntax_error() == ("broken", "line 1 (`def f(:`)")
     assert found.tests == ("test_a.py",)
 
 
@@ -114,8 +114,8 @@ def parts(setup):
     return [(one.executable, one.module, one.function, one.joined) for one in setup.entry_points]
 
 
-def lines(setup):
-    return [one.line for one in setup.entry_points]
+def texts(setup):
+    return [one.text for one in setup.entry_points]
 
 
 TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name")
@@ -126,7 +126,7 @@ TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name
     [
         # Adjacent strings: two entries without a comma, one text in two parts, and two `=`.
         (scripts("'a = p.a:main'", "'b = p.b:main',"),
-         lambda setup: [(one.joined, one.line) for one in setup.entry_points], [(True, 5)]),
+         lambda setup: [one.joined for one in setup.entry_points], [True]),
         (scripts("'a = '", "'p.a:main',"), parts, [("a", "p.a", "main", False)]),
         (scripts("'a = b = c:d'"), lambda setup: setup.entry_points[0].joined, False),
         # A part is absent.
@@ -142,7 +142,7 @@ TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name
                                  ("[('a', 'b', 'c')]", ()))),
         # Literals are read without running anything; a name that is assigned twice is none.
         ("raise SystemExit(3)\n" + scripts("'a = p.a:main'"),
-         lambda setup: (lines(setup), setup.incomplete), ([6], False)),
+         lambda setup: (texts(setup), setup.incomplete), (["a = p.a:main"], False)),
         (TWICE + "'console_scripts': []})\n", lambda setup: setup.package_name, "q"),
         # Entries in the wrong group.
         *((f"setup({given})", lambda setup: setup.misspelled_group, found) for given, found in (
@@ -175,7 +175,7 @@ def test_a_bad_script_has_a_problem_and_nothing_else(setup_of, text):
     setup = setup_of(text)
     assert setup.problem
     assert "detected" not in setup.problem
-    assert setup == SetupScript(problem=setup.problem, line=setup.line)
+    assert setup == SetupScript(problem=setup.problem, place=setup.place)
 
 
 @pytest.mark.parametrize(
@@ -191,7 +191,6 @@ def test_what_is_calculated_is_found_by_running_it(setup_of, answer):
     setup = setup_of(answer.text)
     assert not setup.incomplete
     assert set(NODES) <= {one.executable for one in setup.entry_points}
-    assert all(one.line for one in setup.entry_points)
 
 
 def test_a_script_that_does_not_end_is_given_up(setup_of, monkeypatch):
@@ -248,21 +247,21 @@ def test_each_flaw_is_named(root, package, setup_of, entry, kind, right):
 
 
 @pytest.mark.parametrize(
-    ("text", "kind", "line"),
+    ("text", "kind", "place"),
     [
-        ("x = 1\ndef f(:\n    pass\n", "syntax-error", 2),
-        ("return 3", "syntax-error", 1),
-        ("x = '\\d'\nmain = lambda: 0", None, 0),
-        ("from a import b as main", None, 0),
-        ("if True:\n    def main(): pass", None, 0),
-        ("from a import *", None, 0),
-        ("", "no-function", 0),
+        ("x = 1\ndef f(:\n    pass\n", "syntax-error", "line 2 (`def f(:`)"),
+        ("return 3", "syntax-error", "line 1"),
+        ("x = '\\d'\nmain = lambda: 0", None, ""),
+        ("from a import b as main", None, ""),
+        ("if True:\n    def main(): pass", None, ""),
+        ("from a import *", None, ""),
+        ("", "no-function", ""),
     ],
 )
-def test_the_module_of_an_entry_point(root, package, text, kind, line):
+def test_the_module_of_an_entry_point(root, package, text, kind, place):
     (package / PUBLISHER).write_text(text)
     flaws = read_package(package, root).flaws
-    assert [(one.kind, one.line) for one in flaws] == ([(kind, line)] if kind else [])
+    assert [(one.kind, one.place) for one in flaws] == ([(kind, place)] if kind else [])
 
 
 # The build.

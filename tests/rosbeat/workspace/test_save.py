@@ -239,7 +239,9 @@ def test_a_blank_is_not_saved_and_the_page_goes_on(run, root, shell):
     before = (root / PUBLISHER).read_text()
     result, shown = run(f"%%save {PUBLISHER}\ndef f():\n    return ____\n")
     assert result.success
-    assert shown == "not saved: there is still a blank in line 2 of temperature_publisher.py\n"
+    assert shown == (
+        "not saved: there is still a blank in temperature_publisher.py, in the line `return ____`\n"
+    )
     assert (root / PUBLISHER).read_text() == before
     assert "f" in shell.user_ns
 
