@@ -1,4 +1,4 @@
-"""What a screen reader, a keyboard and weak eyes need: axe-core's rules, and two of our own."""
+"""What a screen reader, a keyboard and weak eyes need: axe-core's rules, and three of our own."""
 
 from functools import cache
 from pathlib import Path
@@ -39,6 +39,43 @@ CUT_OFF = """root => {
         .filter(one => one.checkVisibility() && !one.closest('svg') && cut(one))
         .map(one => one.outerHTML.slice(0, 120));
 }"""
+#: The words whose contrast with what is behind them is below 4.5, and their contrast. axe-core does
+#: not judge text that has a filter.
+FAINT = """root => {
+    const canvas = document.createElement('canvas');
+    const pen = canvas.getContext('2d', { willReadFrequently: true });
+    const pixel = (color) => {
+        pen.clearRect(0, 0, 1, 1);
+        pen.fillStyle = color;
+        pen.fillRect(0, 0, 1, 1);
+        const [red, green, blue, alpha] = pen.getImageData(0, 0, 1, 1).data;
+        return [[red, green, blue], alpha / 255];
+    };
+    const over = ([ink, alpha], ground) => ink.map((part, k) => part * alpha + ground[k] * (1 - alpha));
+    const behind = (one) => {
+        if (!one) return [255, 255, 255];
+        const paint = pixel(getComputedStyle(one).backgroundColor);
+        return paint[1] === 1 ? paint[0] : over(paint, behind(one.parentElement));
+    };
+    const brightness = (one) => one ? brightness(one.parentElement)
+        * (/brightness\\(([\\d.]+)\\)/.exec(getComputedStyle(one).filter)?.[1] || 1) : 1;
+    const luminance = (color) => color.map(part => Math.min(part, 255) / 255)
+        .map(part => part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, part, k) => sum + part * [0.2126, 0.7152, 0.0722][k], 0);
+    const texts = document.createTreeWalker(root, NodeFilter.SHOW_TEXT);
+    const faint = new Set();
+    while (texts.nextNode()) {
+        const text = texts.currentNode.data.trim(), one = texts.currentNode.parentElement;
+        if (!text || !one.checkVisibility() || one.closest('svg, script, style')) continue;
+        const ground = behind(one);
+        const ink = over(pixel(getComputedStyle(one).color), ground);
+        const seen = ink.map(part => part * brightness(one));
+        const [dark, light] = [ground, seen].map(luminance).sort((one, other) => one - other);
+        const contrast = (light + 0.05) / (dark + 0.05);
+        if (contrast < 4.5) faint.add(`${contrast.toFixed(2)}: ${text.slice(0, 40)}`);
+    }
+    return [...faint];
+}"""
 
 
 @cache
@@ -67,3 +104,8 @@ def issues(element):
 def cut_off(element):
     """The parts of an element of which something cannot be seen."""
     return element.evaluate(CUT_OFF)
+
+
+def faint(element):
+    """The words in an element that are not easy to read, each with its contrast."""
+    return element.evaluate(FAINT)
