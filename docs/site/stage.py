@@ -25,7 +25,9 @@ from reading import HOME_LINK, for_readers  # noqa: E402 - found only from here 
 
 #: The documents beside the pages, in the order of the sidebar.
 DOCUMENTS = {
-    "Help": ("docs/glossary.md", "docs/troubleshooting.md", "environment/README.md"),
+    "Help": (
+        "docs/help.md", "docs/glossary.md", "docs/troubleshooting.md", "environment/README.md",
+    ),
     "Your own nodes": ("docs/testing.md",),
     "For instructors": (
         "docs/course_design.md", "docs/instructors.md", "docs/teaching.md", "docs/jupyterhub.md",

@@ -20,9 +20,10 @@
 #
 # **Time:** 20 minutes. **You need:** a little Python: classes, methods, `self`.
 #
-# A page is made of **cells**. Click the first one and press `Shift` + `Enter` to run it. Then work through the
-# page from top to bottom. While a cell is running, it shows `[*]`. If you get lost, choose
-# *Kernel, Restart Kernel* from the menu and start again at the top.
+# This page is a [**notebook**](../docs/glossary.md#notebook): it is made of [**cells**](../docs/glossary.md#cell). Click
+# the first one with code and press `Shift` + `Enter` to run it. Then work through the page from top to bottom. While a
+# cell is running, it shows `[*]`. What runs the cells is the page's [**kernel**](../docs/glossary.md#kernel). If you get
+# lost, choose *Kernel, Restart Kernel* from the menu and start again at the top.
 #
 # The first cell imports what this page needs of ROS, and draws what you'll build in this course. The part in colour is
 # what this page is about. Names such as `viz`, `Session` and `check` belong to the course, and its pages know them
@@ -65,9 +66,9 @@ ros.run(seconds=3)
 # is meant for people. The number after `INFO` is the time in seconds, and the name after it tells you which node
 # logged the line.
 #
-# You didn't have to wait three seconds. A `Session` runs real ROS nodes in [**virtual
-# time**](../docs/glossary.md#virtual-time): its clock jumps straight from one event to the next. A minute takes
-# almost no time, and everybody gets exactly the same result.
+# You didn't have to wait three seconds. A [**`Session`**](../docs/glossary.md#session) runs real ROS nodes in
+# [**virtual time**](../docs/glossary.md#virtual-time): its clock jumps straight from one event to the next. A minute
+# takes almost no time, and everybody gets exactly the same result.
 #
 # **Predict:** the next cell runs the thermometer on, until a whole minute has passed. How many messages has it sent
 # in that minute? Write a number between the quotes, in place of the blank, and run the cell. A wrong guess costs

@@ -149,7 +149,8 @@ class TemperatureSensor(Node):
 # values where the braces are, and `:.2f` formats a number with two decimals.
 #
 # Run it for five seconds with its log lines, and then without them, until a quarter of an hour has passed. `seed=8`
-# selects the sequence of random numbers: the same seed always gives the same walk.
+# is the [**seed**](../docs/glossary.md#seed): it selects the sequence of random numbers, and the same seed always gives
+# the same walk.
 
 # %% shows=true
 ros = Session(seed=8)

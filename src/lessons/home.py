@@ -18,7 +18,8 @@
 progress()
 
 # %% [markdown]
-# If the list is out of date, click its cell and press `Shift` + `Enter`.
+# If the list is out of date, click its cell and press `Shift` + `Enter`. In the list, `00a` is the first exercise of
+# page 00; on a page, `00.2` is the second question at its end.
 #
 # In a class, you can let your instructor see which exercises the class is stuck on. Checks share nothing until you
 # turn that on; `rosbeat share`, typed in a terminal, explains what it means.

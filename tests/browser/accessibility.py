@@ -51,7 +51,8 @@ FAINT = """root => {
         const [red, green, blue, alpha] = pen.getImageData(0, 0, 1, 1).data;
         return [[red, green, blue], alpha / 255];
     };
-    const over = ([ink, alpha], ground) => ink.map((part, k) => part * alpha + ground[k] * (1 - alpha));
+    const over = ([ink, alpha], ground) =>
+        ink.map((part, k) => part * alpha + ground[k] * (1 - alpha));
     const behind = (one) => {
         if (!one) return [255, 255, 255];
         const paint = pixel(getComputedStyle(one).backgroundColor);

@@ -110,6 +110,19 @@ def read_page(path: Path) -> NotebookNode | None:
 
 # Before a page runs.
 
+#: At the foot of every page, for who is stuck.
+_HELP = "**Help:** " + " \N{MIDDLE DOT} ".join(
+    f"[{name}](../docs/{place})"
+    for name, place in (
+        *(("glossary", "glossary.md"), ("troubleshooting", "troubleshooting.md")),
+        *(("keys", "help.md#keys"), ("doctor", "help.md#doctor")),
+        ("where to ask", "help.md#where-to-ask"),
+    )
+)
+_GLOSSARY = Path("docs", "glossary.md")
+_TO_GLOSSARY = re.compile(r"(?<=\]\(\.\./docs/glossary\.md)#([\w-]+)(?=\))")
+_ENTRY = re.compile(r"^## (.+)\n\n(.+?)\s+Page\s+\d\d:", re.MULTILINE | re.DOTALL)
+_LINK_TEXT = re.compile(r"\[([^\]]+)\]\([^)]+\)")
 #: What answers a prediction: whoever has compared theirs sees it open (`exercises/widgets.js`).
 _FOLDED = """\
 <details class="rosbeat-answer"><summary>After your prediction: what happened</summary>
@@ -122,7 +135,7 @@ _FOLDED = """\
 def assemble(
     lesson: Lesson, tree: str, text: Callable[[str], str], lessons: Sequence[Lesson]
 ) -> NotebookNode:
-    """Make a page that has not run, with links to its neighbours at its end.
+    """Make a page that has not run, with links to its neighbours and to help at its end.
 
     Args:
         lesson: The lesson source.
@@ -132,11 +145,11 @@ def assemble(
     """
     is_folded = tree == "notebook"
     cells = [_cell(cell, text, is_folded) for cell in lesson.cells if cell.only in (None, tree)]
-    links = _neighbours(lesson, lessons)
-    if links:
-        cells.append(v4.new_markdown_cell(links))
+    _define_terms(cells, lesson)
+    if lessons:
+        cells.append(v4.new_markdown_cell("\n\n".join([*_neighbours(lesson, lessons), _HELP])))
         # Not the same on every page: grading takes ids for a sign of which page a notebook is.
-        cells[-1].id = f"neighbours-{lesson.number}"
+        cells[-1].id = f"foot-{lesson.number or lesson.name}"
     page = v4.new_notebook(cells=cells)
     # Fixed, so that a newer nbformat does not rewrite every page.
     page.nbformat, page.nbformat_minor = 4, 5
@@ -170,21 +183,46 @@ def _cell(cell: SourceCell, text: Callable[[str], str], is_folded: bool) -> Any:
     return made
 
 
-def _neighbours(lesson: Lesson, lessons: Sequence[Lesson]) -> str:
+def definitions(glossary: str) -> dict[str, str]:
+    """Return what each term of the glossary means, in plain words, by the anchor of its entry."""
+    return {
+        # As the site and JupyterLab make an anchor of a heading.
+        re.sub(r"[^a-z0-9 -]", "", term.lower()).replace(" ", "-"): " ".join(
+            re.sub("[*`]", "", _LINK_TEXT.sub(r"\1", meaning)).split()
+        )
+        for term, meaning in _ENTRY.findall(glossary)
+    }
+
+
+def _define_terms(cells: list[Any], lesson: Lesson) -> None:
+    """Let each link to the glossary show what the term means when somebody points at it."""
+    path = lesson.path.parents[2] / _GLOSSARY
+    known = definitions(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+    def titled(link: re.Match[str]) -> str:
+        meaning = known.get(link[1], "").replace('"', '\\"')
+        return f'{link[0]} "{meaning}"' if meaning else link[0]
+
+    for cell in cells:
+        if cell.cell_type == "markdown":
+            cell.source = _TO_GLOSSARY.sub(titled, cell.source)
+
+
+def _neighbours(lesson: Lesson, lessons: Sequence[Lesson]) -> list[str]:
+    """Return the line with links to the pages before and after, if this is one of them."""
     pages = [one for one in lessons if one.number]
     names = [one.name for one in pages]
     if lesson.name not in names:
-        return ""
+        return []
     at = names.index(lesson.name)
     has_home = any(one.name == HOME for one in lessons)
     before, after = pages[:at][-1:], pages[at + 1 :][:1]
-    return " | ".join(
-        [
-            *(f"\N{LEFTWARDS ARROW} {_link(one)}" for one in before),
-            *([f"[The whole course]({HOME}.ipynb)"] if has_home else []),
-            *(f"{_link(one)} \N{RIGHTWARDS ARROW}" for one in after),
-        ]
-    )
+    links = [
+        *(f"\N{LEFTWARDS ARROW} {_link(one)}" for one in before),
+        *([f"[The whole course]({HOME}.ipynb)"] if has_home else []),
+        *(f"{_link(one)} \N{RIGHTWARDS ARROW}" for one in after),
+    ]
+    return [" | ".join(links)] if links else []
 
 
 def _link(lesson: Lesson) -> str:

@@ -228,7 +228,8 @@ _FOLDERS = (
     ".binder",
 )
 _FILES = (
-    *("pyproject.toml", "LICENSE", "COLCON_IGNORE", "docs/troubleshooting.md"),
+    *("pyproject.toml", "LICENSE", "COLCON_IGNORE"),
+    *("docs/glossary.md", "docs/help.md", "docs/troubleshooting.md"),
     *(".gitignore", ".gitattributes", ".dockerignore"),
 )
 _CLUTTER = {"__pycache__", ".ipynb_checkpoints", ".mypy_cache", ".ruff_cache", ".DS_Store"}

@@ -116,7 +116,8 @@ def page(checkout, build):
 
 def worked_in(page, count=1, source="x = 1"):
     notebook = nbformat.read(page, as_version=4)
-    notebook.cells[-1].update(execution_count=count, source=source)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    code[-1].update(execution_count=count, source=source)
     nbformat.write(notebook, page)
     return page.read_text()
 

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from pathlib import Path
 
@@ -64,12 +65,33 @@ def course(checkout):
 
 
 @pytest.mark.parametrize("make", [notebook_page, solution_draft])
-def test_a_page_ends_with_links_to_its_neighbours_and_the_whole_course(course, make):
-    hear, say, home = (make(lesson, lessons=course).cells[-1] for lesson in course)
-    assert hear.source == "[The whole course](home.ipynb) | [01 Say it](01_say_it.ipynb) →"
-    assert say.source == "← [00 Hear it](00_hear_it.ipynb) | [The whole course](home.ipynb)"
-    assert home.source == "# Find your way"
-    assert (hear.cell_type, hear.id, say.id) == ("markdown", "neighbours-00", "neighbours-01")
+def test_a_page_ends_with_links_to_its_neighbours_the_whole_course_and_help(course, make):
+    feet = [make(lesson, lessons=course).cells[-1] for lesson in course]
+    hear, say, home = (foot.source.split("\n\n") for foot in feet)
+    assert hear[:-1] == ["[The whole course](home.ipynb) | [01 Say it](01_say_it.ipynb) →"]
+    assert say[:-1] == ["← [00 Hear it](00_hear_it.ipynb) | [The whole course](home.ipynb)"]
+    (helping,) = home
+    assert hear[-1] == say[-1] == helping
+    names = ["glossary", "troubleshooting", "keys", "doctor", "where to ask"]
+    links = re.findall(r"\[([^\]]+)\]\(\.\./([^)#]+)#?([^)]*)\)", helping)
+    assert [name for name, _, _ in links] == names
+    for _, place, anchor in links:  # JupyterLab makes anchors of headings as they are
+        text = (GOLDEN.root.parents[1] / place).read_text()
+        assert not anchor or f"\n## {anchor.replace('-', ' ')}\n" in text
+    assert [foot.cell_type for foot in feet] == ["markdown"] * 3
+    assert [foot.id for foot in feet] == ["foot-00", "foot-01", "foot-home"]
+
+
+def test_a_link_to_the_glossary_says_what_the_term_means(checkout):
+    glossary = checkout.course.root / "docs" / "glossary.md"
+    glossary.parent.mkdir()
+    entry = '"Not *a* number": see\nalso [the\nfloat](#float). Page 00: [hear](a.ipynb).'
+    glossary.write_text(f"# Glossary\n\n## NaN\n\n{entry}\n")
+    links = "[**NaN**](../docs/glossary.md#nan), [other](../docs/glossary.md#other)"
+    lesson = checkout.lesson(f"# %% [markdown]\n# {links}\n")
+    text = notebook_page(lesson).cells[-1].source
+    meaning = r'"\"Not a number\": see also the float."'
+    assert text == links.replace("#nan", f"#nan {meaning}")
 
 
 MAGICS = """
