@@ -43,7 +43,7 @@ MAY_IMPORT = {
     "testing": {"errors", "records", "ros"},
     "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis", "inspection"},
-    "new_command": {"errors"},
+    "course_commands": {"errors", "environment"},
     "check_command": {"errors", "records_json", "exercises", "page_runs", "workspace"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
     # The import of page 07 in release 0.1.0.

@@ -51,8 +51,12 @@ class Finding:
 def doctor(layout: Layout, arguments: Sequence[str]) -> int:
     """Print every finding; return 1 when something needs a cure."""
     findings = look(layout, running.cleaned(os.environ, layout))
+    launcher = layout.environment / "course"
     for finding in findings:
-        say(str(finding))
+        # `rosbeat doctor` is typed anywhere.
+        here = Path.cwd() == layout.root or layout.prefix
+        said = str(finding)
+        say(said if here else said.replace("./environment/course", shlex.quote(str(launcher))))
     problems = sum(finding.state == "problem" for finding in findings)
     if not problems:
         say("\nEverything that the course needs works here.")
@@ -64,17 +68,17 @@ def doctor(layout: Layout, arguments: Sequence[str]) -> int:
 
 def look(layout: Layout, clean: running.Environment) -> list[Finding]:
     """Look at everything; what is inside `.venv` counts only if `.venv` can be used."""
-    made = venv(layout)
+    # A wheel brings no git, and pip has made the environment.
+    of_a_checkout = [] if layout.prefix else [course_files(layout, clean.environ), venv(layout)]
     findings = [
-        course_files(layout, clean.environ),
+        *of_a_checkout,
         Finding("ok", "Python", f"{platform.python_version()} ({sys.executable})"),
         disk(shutil.disk_usage(layout.root).free, layout.stamp.exists()),
         shared_memory(Path("/dev/shm")),
         another_ros(clean),
         *wsl(platform.release(), layout.root),
-        made,
     ]
-    if made.state == "ok":
+    if all(finding.subject != ".venv" or finding.state == "ok" for finding in findings):
         environ = running.inside(clean.environ, layout)
         findings += ros(layout, clean, environ)
         findings += [command(layout, name, environ) for name in _COMMANDS]
@@ -114,7 +118,8 @@ def _some(names: Sequence[str]) -> str:
 def pages(layout: Layout) -> Finding:
     """Look whether the learner has a folder with pages."""
     if not layout.notes.is_dir():
-        return Finding("note", "your pages", f"{_LAB}  makes {layout.learner}")
+        makes = f"rosbeat new {layout.learner.name}" if layout.prefix else _LAB
+        return Finding("note", "your pages", f"{makes}  makes {layout.learner}")
     number = sum((layout.learner / page.name).exists() for page in shipped_pages(layout))
     return Finding("ok", "your pages", f"{number} in {layout.learner}")
 

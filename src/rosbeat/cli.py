@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import groupby
 from pathlib import Path
 from typing import NoReturn
 
@@ -36,6 +37,7 @@ class Command:
         run: Function that does the work and returns the exit code. It imports its dependencies when
             it is called, so that every other subcommand starts quickly.
         extra: The extra of the package that brings these dependencies.
+        audience: Who needs the command; `rosbeat --help` shows what learners need first.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Command:
     arguments: Callable[[argparse.ArgumentParser], None]
     run: Callable[[argparse.Namespace], int]
     extra: str = "course"
+    audience: str = "learners"
 
 
 def _new_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,11 +60,15 @@ def _new_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _new(options: argparse.Namespace) -> int:
-    from rosbeat import new_command
+    from rosbeat import course_commands
 
-    new_command.lay_out(options.folder, options.update)
-    print(new_command.next_steps(options.folder))
+    course_commands.lay_out(options.folder, options.update)
+    print(course_commands.next_steps(options.folder))
     return 0
+
+
+def _no_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare nothing: the command has no arguments."""
 
 
 def _page_arguments(parser: argparse.ArgumentParser) -> None:
@@ -267,34 +274,52 @@ def _check(options: argparse.Namespace) -> int:
     return check_command.run(options.pages, options.json)
 
 
+def _doctor(options: argparse.Namespace) -> int:
+    from rosbeat import course_commands
+
+    return course_commands.doctor()
+
+
+_INSTRUCTORS, _AUTHORS = "instructors", "authors of pages"
 COMMANDS: tuple[Command, ...] = (
-    Command("build", "make the pages from their sources", _build_arguments, _build),
-    Command("lint", "check the lesson sources against the rules", _page_arguments, _lint),
+    Command("progress", "show how far you are with the course", _progress_arguments, _progress),
     Command("explain", "say why nothing arrives on a topic", _explain_arguments, _explain),
+    Command("doctor", "say what works here, and how to fix what does not", _no_arguments, _doctor),
     Command("check", "run all checks of a page", _check_arguments, _check),
+    Command("share", "let your class see where you are", _share_arguments, _share),
+    Command("new", "make a folder with the course's pages", _new_arguments, _new),
     Command(
         *("release", "make what learners get: pages, no answers"),
         *(_release_arguments, _grading("commands", "run_release")),
         extra="class",
+        audience=_INSTRUCTORS,
     ),
     Command(
         *("collect", "say who has handed in what"),
         *(_collect_arguments, _grading("commands", "run_collect")),
         extra="class",
+        audience=_INSTRUCTORS,
     ),
     Command(
         *("grade", "judge what a class has handed in"),
         *(_grade_arguments, _grading("commands", "run_grade")),
         extra="class",
+        audience=_INSTRUCTORS,
     ),
     Command(
         *("class", "show where a class is stuck, live"),
         *(_class_arguments, _grading("class_board", "run")),
         extra="class",
+        audience=_INSTRUCTORS,
     ),
-    Command("share", "let your class see where you are", _share_arguments, _share),
-    Command("progress", "show how far you are with the course", _progress_arguments, _progress),
-    Command("new", "make a folder with the course's pages", _new_arguments, _new),
+    Command(
+        *("build", "make the pages from their sources", _build_arguments, _build),
+        audience=_AUTHORS,
+    ),
+    Command(
+        *("lint", "check the lesson sources against the rules", _page_arguments, _lint),
+        audience=_AUTHORS,
+    ),
 )
 
 
@@ -376,12 +401,22 @@ def _run(typed: list[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="rosbeat", description="Learn how robots talk: tools of the course.")
+    groups = [
+        "\n".join([f"for {audience}:", *(f"  {one.name:<10}{one.help}" for one in commands)])
+        for audience, commands in groupby(COMMANDS, lambda command: command.audience)
+    ]
+    parser = _Parser(
+        prog="rosbeat",
+        usage="rosbeat COMMAND ...",
+        description="Learn how robots talk: tools of the course.",
+        epilog="\n\n".join([*groups, "`rosbeat COMMAND --help` explains a command."]),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("--version", action="version", version=f"rosbeat {__version__}")
     parser.add_argument("--traceback", action="store_true", help="show where a mistake happened")
-    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+    subparsers = parser.add_subparsers(prog="rosbeat", dest="command", help=argparse.SUPPRESS)
     for command in COMMANDS:
-        child = subparsers.add_parser(command.name, help=command.help, description=command.help)
+        child = subparsers.add_parser(command.name, description=command.help)
         command.arguments(child)
         child.set_defaults(run=command.run)
     return parser

@@ -1,5 +1,6 @@
-"""`rosbeat new`: a folder with the course's pages, for a learner who has no checkout.
+"""`rosbeat new` and `rosbeat doctor`: what the course's own tool does, typed in any folder.
 
+`rosbeat new` makes a folder with the course's pages, for a learner who has no checkout.
 A wheel brings the pages, and the tool that makes `my_course` in a checkout, in its folder `course`
 (`pyproject.toml`). The same tool makes the learner's folder here, so that both are the same.
 """
@@ -17,10 +18,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from types import SimpleNamespace
 
+from rosbeat.environment import learners_folder
 from rosbeat.errors import RosbeatError
 
-__all__ = ["lay_out", "next_steps"]
+__all__ = ["doctor", "lay_out", "next_steps"]
 
+#: What a wheel brings of the course for learners; a checkout has no such folder.
 _COURSE = Path(__file__).resolve().with_name("course")
 _RCLPY = Path("share", "ament_index", "resource_index", "packages", "rclpy")
 #: Of what the extra `course` brings: without these, no page opens, or none gets far.
@@ -47,7 +50,7 @@ def lay_out(folder: Path, pages: Sequence[str] = ()) -> None:
     _require_extra()
     target = folder.expanduser().absolute()
     is_new = _require_place(target)
-    tool = _course_tool()
+    tool = _course_tool(_COURSE)
     layout = tool.layout.Layout(_COURSE, prefix=Path(sys.prefix), own=target)
     try:
         tool.folder.make(layout)
@@ -70,9 +73,32 @@ def next_steps(folder: Path) -> str:
     if (not found or Path(found).parent != binaries) and (binaries / "activate").exists():
         lines.insert(0, f"source {shlex.quote(str(binaries / 'activate'))}")
     said = ["Open them:", *(f"    {line}" for line in lines)]
-    if not Path(sys.prefix, _course_tool().installing.KERNEL_CONFIG).exists():
+    if not Path(sys.prefix, _course_tool(_COURSE).installing.KERNEL_CONFIG).exists():
         said.append("On each page, run `import rosbeat` first: this environment can't be changed.")
     return "\n".join(said)
+
+
+def doctor() -> int:
+    """Print what works here, with the cure for what does not; return 1 if something needs one.
+
+    Raises:
+        RosbeatError: If nothing of the course but its Python package is installed.
+    """
+    checkout = Path(__file__).resolve().parents[2]
+    if _COURSE.is_dir():
+        tool = _course_tool(_COURSE)
+        own = Path(learners_folder() or Path.cwd())
+        layout = tool.layout.Layout(_COURSE, prefix=Path(sys.prefix), own=own)
+    elif (checkout / "environment" / "course_tool").is_dir():
+        tool = _course_tool(checkout)
+        layout = tool.layout.of_this_checkout()
+    else:
+        raise RosbeatError(
+            f"Nothing of the course but the package {Path(__file__).parent} is here.",
+            "That is enough for tests of your own nodes; the doctor looks at the rest.",
+            'Install the course:  pip install "rosbeat[course,ros]"',
+        )
+    return int(tool.doctor.doctor(layout, ()))
 
 
 def _require_wheel() -> None:
@@ -136,10 +162,14 @@ def _require_place(folder: Path) -> bool:
     return True
 
 
-def _course_tool() -> SimpleNamespace:
-    """Return the modules of the tool, which in a checkout runs before anything is installed."""
-    environment = str(_COURSE / "environment")
+def _course_tool(course: Path) -> SimpleNamespace:
+    """Return the modules of the tool, which in a checkout runs before anything is installed.
+
+    Args:
+        course: The checkout, or what a wheel brings of it.
+    """
+    environment = str(course / "environment")
     if environment not in sys.path:
         sys.path.insert(0, environment)
-    names = ("folder", "installing", "layout", "problems")
+    names = ("doctor", "folder", "installing", "layout", "problems")
     return SimpleNamespace(**{name: import_module(f"course_tool.{name}") for name in names})

@@ -40,7 +40,8 @@ def by_subject(findings):
     return {finding.subject: finding for finding in findings}
 
 
-def test_before_anything_is_installed(layout, capsys):
+def test_before_anything_is_installed(layout, capsys, monkeypatch):
+    monkeypatch.chdir(layout.root)
     assert doctor.doctor(layout, []) == 1
     out = capsys.readouterr().out
     assert "problem  .venv              is not there yet\n" in out

@@ -57,7 +57,18 @@ def test_a_module_of_ours_that_is_missing_is_our_mistake(monkeypatch, capsys):
 def test_help_names_every_command(capsys):
     assert cli.main([]) == 0
     text = capsys.readouterr().out
-    assert all(registered.name in text for registered in cli.COMMANDS)
+    assert all(f"\n  {one.name} " in text and one.help in text for one in cli.COMMANDS)
+    for_whom = ["for learners:", "doctor", "for instructors:", "for authors of pages:", "lint"]
+    assert sorted(for_whom, key=text.index) == for_whom
+
+
+def test_the_doctor_answers_in_any_folder(monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    cli.main(["doctor"])
+    said = capsys.readouterr().out
+    assert "message heard" in said
+    # What it advises can be typed here.
+    assert " ./environment/course" not in said
 
 
 def test_version_is_the_packages(capsys):
@@ -70,7 +81,7 @@ def test_version_is_the_packages(capsys):
     ("arguments", "expected"),
     [
         (["biuld"], "Did you mean `rosbeat build`?"),
-        (["xyzzy"], "The commands are: build, "),
+        (["xyzzy"], "The commands are: progress, "),
         (["build", "--wrong"], "--help"),
     ],
 )

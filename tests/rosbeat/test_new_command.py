@@ -208,6 +208,14 @@ def test_a_place_that_is_not_for_pages_is_refused_in_three_parts(fresh):
     assert not (fresh.prefix / "setup.bash").exists()
 
 
+def test_the_doctor_of_a_wheel_speaks_of_no_checkout(installed):
+    installed.new("mine")
+    done = installed.run("-m", "rosbeat", "doctor", cwd=installed.folder / "mine")
+    assert (done.returncode, done.stderr) == (1, "")  # this one has no real ROS
+    assert "course files" not in done.stdout
+    assert re.search(rf"ok +your pages +1\d in {re.escape(str(installed.folder))}/mine", done.stdout)
+
+
 def test_a_page_that_does_not_exist_is_named(installed):
     installed.new("mine")
     done = installed.new("mine", "--update", "33")

@@ -336,7 +336,7 @@ def _created_package() -> dict[str, bytes]:
             raise LessonError(
                 f"ros2 pkg create failed: {last_words[-500:]}",
                 f"solutions/{PACKAGE} begins with what it makes.",
-                "Run `./environment/course doctor`.",
+                "Run `rosbeat doctor`.",
             ) from error
         files = _content(Path(name) / PACKAGE)
     return {path: text for path, text in files.items() if path != _LEFT_OUT}

@@ -606,7 +606,8 @@ _COMMAND_RULES = (
         "Type only the text after the prompt."),
     Row("environment-inactive", "{1}", _not_found("ros2|colcon"),
         "This terminal cannot find {1}: the course's environment is not active in it.",
-        "Open a terminal from the course, or run `./environment/course shell` first."),
+        "Open a terminal in JupyterLab, or run `./environment/course shell` in the folder of the "
+        "course."),
     Row("ros-1-command", "{1}",
         _not_found("roscore|rosrun|rosnode|rostopic|roslaunch|catkin_make"),
         "`{1}` is not installed here:",
@@ -1164,8 +1165,8 @@ _LOADING_RULES = (
     Rule("ros2", r"Package '([^']+)' not found", _from_elsewhere),
     Row("other-python", PYTHON, "",
         "The program ran with another Python than the course's, and that Python has no ROS.",
-        "`which python3` shows which Python a terminal uses. Open a terminal from the course, or "
-        "run `./environment/course shell` first.",
+        "`which python3` shows which Python a terminal uses. Open a terminal in "
+        "JupyterLab, or run `./environment/course shell` in the folder of the course.",
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error),
     Row("not-sourced", _RUN, "",
         "The package is now installed as a symbolic link, but this terminal sourced the "

@@ -189,14 +189,14 @@ def _require_rehearsed(evidence: PageEvidence | None) -> None:
         raise GradingError(
             "The process that runs pages in a sandbox does not start.",
             "What it printed, above, says why; nothing was judged, and no mark is lost.",
-            "`course doctor` says what this computer lacks. Then run the command again.",
+            "`rosbeat doctor` says what this computer lacks. Then run the command again.",
         )
     said = _failed(evidence.exercises.get("03a", Evidence("ended")))
     if said:
         raise GradingError(
             f"Nothing can be observed in the sandbox of this machine: {said}",
             "A program that certainly works did not work in there, so every mark would be wrong.",
-            "`./environment/course doctor` says what is missing, or which other ROS is in the way; "
+            "`rosbeat doctor` says what is missing, or which other ROS is in the way; "
             "`--unsafe-no-sandbox` tells whether it is the sandbox.",
         )
 
@@ -322,7 +322,7 @@ def files_before(page: str) -> Mapping[str, str]:
             raise GradingError(
                 f"The workspace of page {page} cannot be made: {report.attention[0]}",
                 "Exercises of that page are about what is typed in it.",
-                "`course doctor` says what this computer lacks.",
+                "`rosbeat doctor` says what this computer lacks.",
             )
         found = sorted(Path(root).rglob("*"))
         return MappingProxyType(dict(_entry(path, Path(root)) for path in found))
