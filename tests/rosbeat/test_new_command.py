@@ -213,7 +213,9 @@ def test_the_doctor_of_a_wheel_speaks_of_no_checkout(installed):
     done = installed.run("-m", "rosbeat", "doctor", cwd=installed.folder / "mine")
     assert (done.returncode, done.stderr) == (1, "")  # this one has no real ROS
     assert "course files" not in done.stdout
-    assert re.search(rf"ok +your pages +1\d in {re.escape(str(installed.folder))}/mine", done.stdout)
+    assert re.search(
+        rf"ok +your pages +1\d in {re.escape(str(installed.folder))}/mine", done.stdout
+    )
 
 
 def test_a_page_that_does_not_exist_is_named(installed):

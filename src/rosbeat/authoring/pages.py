@@ -121,7 +121,7 @@ _HELP = "**Help:** " + " \N{MIDDLE DOT} ".join(
 )
 _GLOSSARY = Path("docs", "glossary.md")
 _TO_GLOSSARY = re.compile(r"(?<=\]\(\.\./docs/glossary\.md)#([\w-]+)(?=\))")
-_ENTRY = re.compile(r"^## (.+)\n\n(.+?)\s+Page\s+\d\d:", re.MULTILINE | re.DOTALL)
+_ENTRY = re.compile(r"^## ([^\n]+)\n\n(.+?)\s+Page\s+\d\d:", re.MULTILINE | re.DOTALL)
 _LINK_TEXT = re.compile(r"\[([^\]]+)\]\([^)]+\)")
 #: What answers a prediction: whoever has compared theirs sees it open (`exercises/widgets.js`).
 _FOLDED = """\

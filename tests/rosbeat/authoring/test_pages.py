@@ -86,7 +86,9 @@ def test_a_link_to_the_glossary_says_what_the_term_means(checkout):
     glossary = checkout.course.root / "docs" / "glossary.md"
     glossary.parent.mkdir()
     entry = '"Not *a* number": see\nalso [the\nfloat](#float). Page 00: [hear](a.ipynb).'
-    glossary.write_text(f"# Glossary\n\n## NaN\n\n{entry}\n")
+    glossary.write_text(
+        f"# Glossary\n\n## NaN\n\n{entry}\n\n## node\n\nA part. Page 01: [b](b.ipynb).\n"
+    )
     links = "[**NaN**](../docs/glossary.md#nan), [other](../docs/glossary.md#other)"
     lesson = checkout.lesson(f"# %% [markdown]\n# {links}\n")
     text = notebook_page(lesson).cells[-1].source
