@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import signal
 import socket
 import subprocess
 import time
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, BinaryIO, NoReturn
 
 from course_tool import commands, folder, prepare, running
 from course_tool.hub import bring_fonts
@@ -31,10 +32,68 @@ _ENDING = 30.0
 def lab(layout: Layout, options: Sequence[str]) -> int:
     """Run JupyterLab until somebody stops it, with a person's options passed through.
 
+    A second one in the same folder would save over the pages that are open in the first, so it says
+    where that is.
+
     Raises:
         Problem: If it does not start, or ends with an error.
     """
     environ = _ready(layout)
+    if _is_elsewhere(layout, options):
+        return _run(layout, options, environ)
+    with only_one(layout) as lock:
+        if lock is None:
+            say(already_open(layout))
+            return 0
+        _address_file(layout).unlink(missing_ok=True)  # of one that was killed
+        return _run(layout, options, environ, lock)
+
+
+@contextmanager
+def only_one(layout: Layout) -> Iterator[int | None]:
+    """Hold the learner's folder for one JupyterLab; yield nothing while another one holds it.
+
+    The lock is on the hidden folder. It leaves no file, and JupyterLab inherits it: it ends with
+    the last of the two processes, however they end.
+    """
+    lock = os.open(layout.notes, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            yield None
+            return
+        except OSError:
+            pass  # a file system without such locks (some network drives): go on without
+        yield lock
+    finally:
+        os.close(lock)
+
+
+def already_open(layout: Layout) -> str:
+    """Return where the course is open, and how to stop it."""
+    try:
+        where = f"at  {_address_file(layout).read_text(encoding='utf-8')}"
+    except OSError:  # it is only starting, or somebody else's
+        where = f"in {layout.learner}, by another command."
+    return (
+        f"The course is open already, {where}\n"
+        "To see it again, open that address in a browser. To stop it, press Ctrl+C in the\n"
+        "terminal where it was started, or choose File, Shut Down in JupyterLab."
+    )
+
+
+def _address_file(layout: Layout) -> Path:
+    return layout.notes / "address"
+
+
+def _private(path: Path) -> BinaryIO:
+    """Open a file to write, which holds the token: whoever has that can run commands."""
+    return os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb")
+
+
+def _run(layout: Layout, options: Sequence[str], environ: dict[str, str], *inherited: int) -> int:
+    """Run JupyterLab, which inherits some open files, until it ends or somebody stops it."""
     newer = [one.name[:2] for one in folder.shipped_pages(layout) if folder.is_newer(layout, one)]
     if newer:
         say(f"There is a new version of {', '.join(newer)}:  ./environment/course update  takes it")
@@ -50,8 +109,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     log = layout.notes / "lab.log"
     shown = str(log.relative_to(layout.learner.parent))
-    # The token is in it, which lets whoever has it run commands.
-    with os.fdopen(os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as messages:
+    with _private(log) as messages:
         server = subprocess.Popen(
             command,
             env=environ,
@@ -61,11 +119,16 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
             stderr=subprocess.STDOUT,
             # Ctrl+C in the terminal reaches this process only, which then ends the server.
             start_new_session=True,
+            pass_fds=inherited,
         )
     try:
         info = when_open(server, Path(runtime))
         if info:
-            say(f"The course is open at  {address(layout, info, options)}")
+            place = address(layout, info, options)
+            if inherited:  # it is the one of the learner's folder
+                with _private(_address_file(layout)) as file:
+                    file.write(place.encode())
+            say(f"The course is open at  {place}")
             say(f"Ctrl+C stops it. JupyterLab's messages go to {shown}")
         code = server.wait()
     except KeyboardInterrupt:
@@ -78,6 +141,8 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     finally:
         if server.poll() is None:
             end(server)
+        if inherited:
+            _address_file(layout).unlink(missing_ok=True)
     if code == 0:
         say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
         return 0

@@ -179,6 +179,29 @@ def test_two_lines_and_then_it_ends_as_one_asks(start, made, number):
     assert log.stat().st_mode & 0o777 == 0o600  # a real one has the token in it
 
 
+def test_a_second_one_says_where_the_first_is_even_if_that_was_killed(start, made):
+    first = start(OPENS)
+    opened = [first.stdout.readline() for _ in range(3)][1].split()[-1]
+    (info,) = (made.notes / "run").glob("jpserver-*.json")
+    server = int(info.stem.partition("-")[2])
+    log = (made.notes / "lab.log").read_text()
+    out, err = start("exit 9").communicate(timeout=100)
+    assert out.splitlines()[0] == f"The course is open already, at  {opened}"
+    assert "press Ctrl+C in the\nterminal" in out
+    assert (err, (made.notes / "lab.log").read_text()) == ("", log)
+    # JupyterLab goes on without the command that started it, and can be found.
+    first.kill()
+    first.wait()
+    assert opened in start("exit 9").communicate(timeout=100)[0]
+    os.kill(server, signal.SIGKILL)
+    info.unlink()
+    third = start(OPENS)
+    assert "The course is open at" in third.stdout.readline()
+    third.send_signal(signal.SIGINT)
+    assert "Stopped." in third.communicate(timeout=100)[0]
+    assert not (made.notes / "address").exists()
+
+
 def test_an_option_that_is_wrong_is_said_in_three_parts(start):
     out, err = start('echo "[C] Bad config"; exit 1').communicate(timeout=100)
     assert "The course is open" not in out
