@@ -115,7 +115,9 @@ def lock(layout: Layout, options: Sequence[str]) -> int:
                 without_ros.write_text(pins_without_ros(layout), encoding="utf-8")
                 constraint = str(without_ros)
             command = compile_command(layout, name, options, constraint)
-            installing.install(command, environ, cwd=layout.environment)
+            installing.install(
+                command, environ, installing.install_log(layout), cwd=layout.environment
+            )
     return 0
 
 

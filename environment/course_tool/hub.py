@@ -88,7 +88,8 @@ def _install(layout: Layout, environ: Mapping[str, str]) -> None:
     }
     for what, command in steps.items():
         say(f"  installing {what}")
-        installing.install(command, {**environ, "MPLCONFIGDIR": str(_fonts(layout))})
+        env = {**environ, "MPLCONFIGDIR": str(_fonts(layout))}
+        installing.install(command, env, installing.install_log(layout))
     say("  installing compiled files")
     compiled = [layout.venv / "lib", layout.root / "src"]
     # Some packages bring files for other Pythons, which this one cannot compile.

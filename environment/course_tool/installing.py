@@ -18,7 +18,7 @@ from pathlib import Path
 
 from course_tool import running
 from course_tool.layout import COURSE_ROS, Layout
-from course_tool.problems import Problem, say
+from course_tool.problems import Problem, last_lines, say, status_line
 
 # Runs at the start of every Python of the environment. `_rosbeat_environment` is a link to
 # src/rosbeat/environment.py: a broken `rosbeat` must not disturb, so the package is not imported.
@@ -59,31 +59,62 @@ def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
         Problem: If an installer stops.
     """
     say("  2/4  fetching uv, the installer")
-    install(uv_command(layout), _for_pip(environ))
+    log = install_log(layout)
+    log.unlink(missing_ok=True)
+    install(uv_command(layout), _for_pip(environ), log)
     lock = layout.lock(level).read_text(encoding="utf-8")
     count = len(re.findall(r"^[\w.-]+==", lock, re.MULTILINE))
     say(f"  3/4  installing what {level}.lock lists ({count} packages at most)")
     env = for_installers(layout, environ)
     for command in (lock_command(layout, level), own_command(layout)):
-        install(command, env)
+        install(command, env, log)
     write_start_hook(layout)
     if layout.ros == COURSE_ROS:
         write_lab_defaults(layout)  # of other distributions, only the tests run
     write_underlay(layout, environ)
 
 
+def install_log(layout: Layout) -> Path:
+    """Return the file that keeps what the installers say: a line for each of 200 packages."""
+    return layout.venv / "install.log"
+
+
 def install(
-    command: Sequence[str | Path], environ: Mapping[str, str], cwd: Path | None = None
+    command: Sequence[str | Path], environ: Mapping[str, str], log: Path, cwd: Path | None = None
 ) -> None:
-    """Run an installer, which tells itself what it does, and why it stops.
+    """Run an installer; in a terminal, one line shows what it is doing.
+
+    Args:
+        command: The installer.
+        environ: Its environment.
+        log: The file that all it says is added to.
+        cwd: Its current folder.
 
     Raises:
         Problem: If it stops.
     """
-    done = subprocess.run(command, env=dict(environ), cwd=cwd, check=False)
-    if done.returncode != 0:
+    said: list[str] = []
+    with (
+        log.open("a", encoding="utf-8") as kept,
+        subprocess.Popen(
+            command,
+            env=dict(environ),
+            cwd=cwd,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        ) as process,
+        status_line() as show,
+    ):
+        for line in process.stdout or ():
+            said.append(line)
+            kept.write(line)
+            show(line)
+    if process.returncode != 0:
         raise Problem(
-            "The installer stopped; its own message is above.",
+            "The installer stopped.",
             "The environment is not complete yet; nothing of yours is touched.",
             "Run the same command again: it goes on where it stopped.\n"
             "The first start fetches about 200 packages (250 MB), and needs 1.5 GB of disk.\n"
@@ -91,7 +122,9 @@ def install(
             "With an index of your own, set UV_DEFAULT_INDEX and PIP_INDEX_URL.\n"
             "No wheel for this platform: ROS 2 needs glibc 2.28; try ./environment/container\n"
             "If it stops again, remove the folder that it fills (.venv; for the tests on another\n"
-            "distribution, .venv-kilted) and run the command once more.",
+            "distribution, .venv-kilted) and run the command once more.\n"
+            f"All that it said is in {log}",
+            last_lines("".join(said)),
         )
 
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from textwrap import indent
 
 _LABELS = ("What happened:", "What it means here:", "What to try:")
@@ -35,6 +39,26 @@ class Problem(Exception):  # noqa: N818 - not always an error
 def say(text: str = "") -> None:
     """Print a line of progress, at once."""
     print(text, flush=True)
+
+
+@contextmanager
+def status_line() -> Iterator[Callable[[str], None]]:
+    """Yield what shows one of many lines, in the place of the one before; at the end, none is left.
+
+    Where nobody watches, as in a pipe or in CI, nothing is shown.
+    """
+    is_watched = sys.stdout.isatty() and os.environ.get("TERM", "dumb") != "dumb"
+
+    def show(text: str) -> None:
+        if is_watched and text.strip():
+            width = shutil.get_terminal_size().columns - 8
+            print(f"\r\x1b[K       {text.strip()[:width]}", end="", flush=True)
+
+    try:
+        yield show
+    finally:
+        if is_watched:
+            print("\r\x1b[K", end="", flush=True)
 
 
 def complain(problem: Problem) -> None:

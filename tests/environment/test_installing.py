@@ -2,9 +2,11 @@
 
 import json
 import os
+import pty
 import shutil
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -21,13 +23,12 @@ def test_pip_installs_uv_and_uv_everything_else(made, monkeypatch):
     made.lock("course").write_text("a==1\nb==2\n")
     ran, environs = [], []
 
-    def run(command, env, cwd, check):
+    def install(command, env, log):
         ran.append([str(part) for part in command])
         environs.append(env)
-        return subprocess.CompletedProcess(command, 0)
 
     monkeypatch.setattr(running, "quiet", lambda *given, **more: running.Result(True, CLOSER))
-    monkeypatch.setattr(installing.subprocess, "run", run)
+    monkeypatch.setattr(installing, "install", install)
     installing.fill(made, "course", {"UV_INDEX": "mine"})
     pip, locked, own = ran
     assert pip[0] == str(made.python)
@@ -40,11 +41,57 @@ def test_pip_installs_uv_and_uv_everything_else(made, monkeypatch):
         assert (env["UV_INDEX"], env[INDEX]) == ("mine", "https://three.example")
 
 
-def test_an_installer_that_stops_is_said_in_three_parts():
+def test_an_installer_that_stops_is_said_in_three_parts(tmp_path):
+    log = tmp_path / "install.log"
+    log.write_text("of another installer\n")
+    code = "import sys; print(' + a==1'); sys.exit('no wheel')"
     with pytest.raises(Problem, match="The installer stopped") as caught:
-        installing.install([sys.executable, "-c", "import sys; sys.exit(1)"], os.environ)
+        installing.install([sys.executable, "-uc", code], os.environ, log)
     for words in ("HTTPS_PROXY", "1.5 GB of disk", "./environment/container", "remove the folder"):
         assert words in caught.value.cure
+    assert caught.value.cure.endswith(f"All that it said is in {log}")
+    assert caught.value.details == "+ a==1\nno wheel"
+    assert log.read_text() == "of another installer\n + a==1\nno wheel\n"
+
+
+MANY = "import time\nfor number in range(244): print(f' + package-{number}==1.0')"
+INSTALL = """\
+import os, sys
+sys.path.insert(0, {environment!r})
+from pathlib import Path
+from course_tool import installing
+print("  3/4  installing", flush=True)
+installing.install([sys.executable, "-c", {many!r}], os.environ, Path({log!r}))
+print("  4/4  listening")
+"""
+
+
+@pytest.mark.parametrize("is_watched", [True, False])
+def test_a_first_start_is_quiet(tmp_path, is_watched):
+    """In a terminal, one line changes; in a pipe, as in CI, there is none."""
+    log = tmp_path / "install.log"
+    environment = str(ROOT / "environment")
+    code = INSTALL.format(environment=environment, many=MANY, log=str(log))
+    command, environ = [sys.executable, "-c", code], {**os.environ, "TERM": "xterm"}
+    if is_watched:
+        main, other = pty.openpty()
+        process = subprocess.Popen(command, env=environ, stdout=other)
+        os.close(other)
+        said = b""
+        with suppress(OSError):  # the end
+            while part := os.read(main, 65536):
+                said += part
+        os.close(main)
+        assert process.wait(60) == 0
+        rows = said.decode().replace("\r\n", "\n").split("\n")
+        shown = [row.rpartition("\x1b[K")[2] for row in rows]
+        assert "package-0==1.0" in rows[1]
+    else:
+        done = subprocess.run(command, env=environ, capture_output=True, text=True, check=True)
+        shown = done.stdout.split("\n")
+        assert done.stderr == ""
+    assert shown == ["  3/4  installing", "  4/4  listening", ""]
+    assert len(log.read_text().splitlines()) == 244
 
 
 @pytest.fixture

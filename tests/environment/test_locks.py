@@ -94,7 +94,7 @@ def test_every_lock_is_made_and_those_of_a_distribution_last(layout, monkeypatch
     """The versions of `test.lock` constrain them."""
     made, constraints = [], {}
 
-    def install(command, environ, cwd):
+    def install(command, environ, log, cwd):
         name = command[-1].removesuffix(".lock")
         made.append(name)
         if "--constraint" in command:
