@@ -21,6 +21,8 @@ from course_tool.problems import Problem, last_lines, say
 
 _TERMINALS = "--ServerApp.terminado_settings"
 _FOLDERS = ("--ServerApp.root_dir", "--ServerApp.notebook_dir", "--notebook-dir")
+#: With these, JupyterLab answers, and opens nothing.
+_ANSWERS = ("--help", "--version", "--show-config")
 #: So the buttons of a check can ask JupyterLab to run its cells, and to save the page.
 _EXPOSED = "--LabApp.expose_app_in_browser"
 #: Where `custom.css` is: narrower launcher, wider file browser, solutions in another colour.
@@ -39,7 +41,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
         Problem: If it does not start, or ends with an error.
     """
     environ = _ready(layout)
-    if _is_elsewhere(layout, options):
+    if _is_elsewhere(layout, options) or any(one.startswith(_ANSWERS) for one in options):
         return _run(layout, options, environ)
     with only_one(layout) as lock:
         if lock is None:

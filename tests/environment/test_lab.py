@@ -130,12 +130,12 @@ def start(made, tool, environ):
     started = []
     port = socket.create_server(("localhost", 0))
 
-    def begin(program):
+    def begin(program, *options):
         program = program.replace("PORT", str(port.getsockname()[1]))
         made.python.write_text(f"#!/bin/sh\n{program}")
         started.append(
             subprocess.Popen(
-                [sys.executable, "-I", "-c", tool, "lab"],
+                [sys.executable, "-I", "-c", tool, "lab", *options],
                 env=environ, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             )
         )  # fmt: skip
@@ -200,6 +200,12 @@ def test_a_second_one_says_where_the_first_is_even_if_that_was_killed(start, mad
     third.send_signal(signal.SIGINT)
     assert "Stopped." in third.communicate(timeout=100)[0]
     assert not (made.notes / "address").exists()
+
+
+def test_a_question_is_answered_while_the_course_is_open(start):
+    first = start(OPENS)
+    assert "open at" in [first.stdout.readline() for _ in range(3)][1]
+    assert start('echo "all options"', "--help").communicate(timeout=100)[0] == "all options\n"
 
 
 def test_an_option_that_is_wrong_is_said_in_three_parts(start):
