@@ -58,7 +58,9 @@ ros.start()
 # %% [markdown]
 # Six nodes, and yours is `/temperature_sensor`: the name that the node gives itself. The graph contains nodes, not
 # executables or processes. Five of these nodes run on this page and one runs in a terminal, but the list doesn't tell
-# you that.
+# you that. If the list shows more than six, something else is still running, such as a sensor that you left in a
+# terminal on page 06: closing the tab of a terminal doesn't end it. The second icon on the left, *Running Terminals and
+# Kernels*, does.
 #
 # ## Which topics do they use?
 #

@@ -27,6 +27,24 @@ cd nowhere  # a comment
 export ROBOT="Rosie"
 if true; then echo "I am $ROBOT"; fi"""
 
+#: The lines of a text as they are broken in the window.
+LINES = """pre => {
+    const text = pre.textContent, range = document.createRange(), node = pre.firstChild;
+    const lines = [];
+    let top = null;
+    for (let at = 0; at < text.length; at += 1) {
+        range.setStart(node, at);
+        range.setEnd(node, at + 1);
+        const box = range.getBoundingClientRect();
+        if (box.width && box.top !== top) {
+            lines.push('');
+            top = box.top;
+        }
+        if (lines.length) lines[lines.length - 1] += text[at];
+    }
+    return lines;
+}"""
+
 
 @pytest.fixture
 def open_page(page, lab):
@@ -47,6 +65,21 @@ def test_code_cells_have_line_numbers(open_page, page, lab):
     open_page("lines.ipynb")
     numbers = page.locator(f"{SHOWN} .jp-CodeCell .cm-lineNumbers .cm-gutterElement:visible")
     assert numbers.all_inner_texts() == ["1", "2", "3"]
+
+
+def test_a_file_of_python_is_no_page(page, lab):
+    (lab.root / "robot.py").write_text("print('Rosie')\n")
+    assert page.request.get(f"{lab.url}api/contents/robot.py").json()["type"] == "file"
+
+
+def test_a_long_line_breaks_between_words(open_page, page, lab):
+    write_notebook(lab.root / "long.ipynb", "print('temperature ' * 40)")
+    notebook = open_page("long.ipynb", 720)
+    notebook.run(0)
+    output = page.locator(f"{SHOWN} .jp-OutputArea-output pre")
+    lines = output.evaluate(LINES)
+    assert len(lines) > 2
+    assert {word for line in lines for word in line.split()} == {"temperature"}
 
 
 def test_every_word_of_an_output_can_be_read(open_page, page, lab):

@@ -15,7 +15,7 @@ from html import escape
 from pathlib import Path
 
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.exercises.outcome_display import LOOKS, RIGHT
+from rosbeat.exercises.outcome_display import EDGES, LOOKS, OPEN, RIGHT, WRONG
 from rosbeat.exercises.registry import EXERCISES, Page
 from rosbeat.records import Outcome
 from rosbeat.viz.text_format import count, listing, sentence_case
@@ -23,13 +23,13 @@ from rosbeat.workspace.location import steady_home
 
 _LEFT = "text-align: left; vertical-align: top; white-space: normal"
 _PLAIN = "list-style-type: none; padding: 0px; margin: 0px 0px 8px 0px"
-#: Colours with a contrast of 3:1 for edges and of 4.5:1 for text, on light pages and on dark ones.
-_CHIPS = {
-    PASSED: "border: 2px solid #00694d; background-color: #00694d; color: #ffffff",
-    FAILED: "border: 2px dashed #c65102",
-    NOT_ATTEMPTED: "border: 2px solid #6b7b8b",
+#: The edges that the verdicts of checks have; a box would look like a button, a line like a link.
+_EDGES = {
+    PASSED: f"border-left: 4px solid {EDGES[RIGHT]}",
+    FAILED: f"border-left: 4px dashed {EDGES[WRONG]}",
+    NOT_ATTEMPTED: f"border-left: 4px solid {EDGES[OPEN]}",
 }
-_CHIP = "display: inline-block; border-radius: 4px; padding: 0px 5px; margin: 1px 3px 1px 0px"
+_NUMBER = "display: inline-block; padding-left: 5px; margin: 1px 8px 1px 0px; white-space: nowrap"
 _LEGEND = ", ".join(f"{sign} {word}" for sign, word in LOOKS.values())
 
 
@@ -226,5 +226,5 @@ def _line(row: Row, numbered: dict[str, Page], link: _Links) -> str:
 def _chip(outcome: Outcome) -> str:
     sign, word = LOOKS[outcome.status]
     title = f"{EXERCISES[outcome.exercise].title}: {word}"
-    style = f"{_CHIP}; {_CHIPS[outcome.status]}"
+    style = f"{_NUMBER}; {_EDGES[outcome.status]}"
     return f'<span style="{style}" title="{escape(title)}">{sign} {outcome.exercise}</span>'
