@@ -74,15 +74,16 @@ def only_one(layout: Layout) -> Iterator[int | None]:
 
 def already_open(layout: Layout) -> str:
     """Return where the course is open, and how to stop it."""
-    try:
-        where = f"at  {_address_file(layout).read_text(encoding='utf-8')}"
-    except OSError:  # it is only starting, or somebody else's
-        where = f"in {layout.learner}, by another command."
-    return (
-        f"The course is open already, {where}\n"
-        "To see it again, open that address in a browser. To stop it, press Ctrl+C in the\n"
+    stop = (
+        "To stop it, press Ctrl+C in the\n"
         "terminal where it was started, or choose File, Shut Down in JupyterLab."
     )
+    try:
+        place = _address_file(layout).read_text(encoding="utf-8")
+    except OSError:  # it is only starting, or somebody else's
+        return f"Another command has opened the course in {layout.learner}, or is about to. {stop}"
+    again = "To see it again, open that address in a browser."
+    return f"The course is open already, at  {place}\n{again} {stop}"
 
 
 def _address_file(layout: Layout) -> Path:
