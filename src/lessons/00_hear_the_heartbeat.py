@@ -1,6 +1,6 @@
 # ---
 # title: Hear the heartbeat
-# minutes: 20
+# minutes: 30
 # needs: []
 # summary: Run real ROS 2 nodes in a page, and see how publishers and subscribers talk without knowing each other.
 # ---
@@ -15,19 +15,20 @@
 # - subscribe to a topic (00a), and publish on one (00b);
 # - find out why a node receives nothing (00.3).
 #
-# This course follows a tutorial, *The Heartbeat of Robotics: Understanding ROS2's Publisher-Subscriber System*. You'll
-# run every step of it, and test everything it claims.
+# A robot is made of many small programs that talk to each other all the time: the driver of a camera, the motor
+# controller, the planner that decides where to go. How they talk is the heartbeat of ROS 2, and you're about to
+# hear it. This course follows a tutorial, *The Heartbeat of Robotics: Understanding ROS2's Publisher-Subscriber
+# System*. You'll run every step of it, and test its claims.
 #
-# **Time:** 20 minutes. **You need:** a little Python: classes, methods, `self`.
+# **Time:** 30 minutes. **You need:** a little Python: classes, methods, `self`.
 #
-# This page is a [**notebook**](../docs/glossary.md#notebook): it is made of [**cells**](../docs/glossary.md#cell). Click
-# the first one with code and press `Shift` + `Enter` to run it. Then work through the page from top to bottom. While a
-# cell is running, it shows `[*]`. What runs the cells is the page's [**kernel**](../docs/glossary.md#kernel). If you get
-# lost, choose *Kernel, Restart Kernel* from the menu and start again at the top.
+# This page is a [**notebook**](../docs/glossary.md#notebook), made of [**cells**](../docs/glossary.md#cell). Click the
+# first one with code and press `Shift` + `Enter` to run it, then the next, down to the end. While a cell is running, it
+# shows `[*]`. What runs the cells is the page's [**kernel**](../docs/glossary.md#kernel). If you get lost, choose
+# *Kernel, Restart Kernel* from the menu and start again at the top.
 #
-# The first cell imports what this page needs of ROS, and draws what you'll build in this course. The part in colour is
-# what this page is about. Names such as `viz`, `Session` and `check` belong to the course, and its pages know them
-# without an import. In any other notebook, run `import rosbeat` first.
+# Run the first cell. It loads what this page needs of ROS, and draws a map of the course. The part in color is where
+# you are now.
 
 # %%
 from rclpy.node import Node
@@ -36,14 +37,10 @@ from std_msgs.msg import Float32, String
 viz.diagram("00")
 
 # %% [markdown]
-# ## Send your first message
+# ## Feel the pulse
 #
-# Robot software is built from many small parts that talk to each other. In ROS 2, each of these parts is called a
-# [**node**](../docs/glossary.md#node). The data that one node sends to others is a
-# [**message**](../docs/glossary.md#message).
-#
-# Here is a complete node: a thermometer. You don't have to understand every line yet; page 03 explains them all.
-# Run the next two cells.
+# Meet Rosie, a small robot that looks after a greenhouse. The first thing Rosie needs is a thermometer. Here is the
+# whole program. You don't have to understand every line yet; page 03 explains them all. Run the next two cells.
 
 # %%
 class Thermometer(Node):
@@ -57,22 +54,45 @@ class Thermometer(Node):
         self.get_logger().info("It is 22.5 degrees")
 
 # %% shows=true
+rosie = Session()
+rosie.add(Thermometer)
+rosie.start()
+rosie.panel()
+
+# %% [markdown]
+# It's alive! Each dot that leaves the thermometer is a [**message**](../docs/glossary.md#message): data that one part
+# of the robot sends to the others. The thermometer itself is a [**node**](../docs/glossary.md#node), which is what
+# ROS 2 calls such a part. Play with it:
+#
+# - press *Pause* beside `/thermometer`, count to five, and let it go on;
+# - drag the slider to 30 and publish that value yourself: who says that only thermometers may talk?
+#
+# When you've seen enough, run the next cell to switch Rosie off.
+
+# %%
+rosie.close()
+
+# %% [markdown]
+# ## Fast-forward
+#
+# That was real time. Most of this course doesn't have the patience. Here is the same node in a new session:
+
+# %% shows=true
 ros = Session()
 ros.add(Thermometer)
 ros.run(seconds=3)
 
 # %% [markdown]
-# That's a heartbeat: one message every second. Each line you see is a [**log**](../docs/glossary.md#log) line, which
-# is meant for people. The number after `INFO` is the time in seconds, and the name after it tells you which node
-# logged the line.
+# Each line is a [**log**](../docs/glossary.md#log) line, which the node writes for people to read. The number after
+# `INFO` is the time in seconds, and the name after it tells you which node wrote the line.
 #
-# You didn't have to wait three seconds. A [**`Session`**](../docs/glossary.md#session) runs real ROS nodes in
-# [**virtual time**](../docs/glossary.md#virtual-time): its clock jumps straight from one event to the next. A minute
-# takes almost no time, and everybody gets exactly the same result.
+# You didn't have to wait three seconds, because a [**`Session`**](../docs/glossary.md#session) fast-forwards: when
+# nothing is happening, its clock jumps to the next event. That's called [**virtual
+# time**](../docs/glossary.md#virtual-time). The nodes are real, and everybody gets exactly the same result.
+# `Session`, `viz` and `check` are this course's own names; all the rest is ROS and Python.
 #
-# **Predict:** the next cell runs the thermometer on, until a whole minute has passed. How many messages has it sent
-# in that minute? Write a number between the quotes, in place of the blank, and run the cell. A wrong guess costs
-# nothing.
+# **Predict:** the thermometer runs on, until a full minute is on the clock. How many messages will it have sent by
+# then? Run the cell, type your guess into the box, and compare. A wrong guess costs nothing.
 
 # %% predict=true
 ros.run(seconds=57, quiet=True)
@@ -83,25 +103,23 @@ predict("60", len(ros.messages("temperature")))
 # --- end
 
 # %% [markdown] answers=true
-# One every second. `quiet=True` hides the log lines; the messages are sent all the same. The session records every one
-# of them, and `ros.messages` returns these records.
+# One every second. `quiet=True` hides the log lines, but not the messages: the session records them all, and
+# `ros.messages` returns these records.
 
 # %% [markdown]
-# On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
-# system's word for a running program. A session gives each node a simulated process, and the messages travel
-# through real ROS software. If you'd like to know more, read [what is simulated, and
+# On a robot, each node usually runs as a separate [**process**](../docs/glossary.md#process), the operating system's
+# word for a running program. A session gives each node a simulated one. Curious? Read [what is simulated, and
 # how](../docs/architecture.md#what-is-simulated-and-how).
 #
 # ## Visit the newsroom
 #
-# Picture a newsroom. Reporters write articles about sports, politics or the weather. Readers follow the
-# subjects they're interested in. A sports reader doesn't care about politics, and a reporter doesn't
-# need to know who is reading.
+# Picture a newsroom. Reporters write about sports, politics or the weather, and readers follow the subjects that
+# interest them. A sports reader doesn't care about politics, and a reporter doesn't need to know who is reading.
 #
 # ROS 2 has a word for each part of this picture:
 #
 # - a [**topic**](../docs/glossary.md#topic) is a named channel, such as `weather`;
-# - a [**publisher**](../docs/glossary.md#publisher) sends messages to a topic;
+# - a [**publisher**](../docs/glossary.md#publisher) generates messages and sends them to a topic;
 # - a [**subscriber**](../docs/glossary.md#subscriber) receives the messages of a topic. ROS passes each one to a
 #   function called a [**callback**](../docs/glossary.md#callback).
 #
@@ -109,9 +127,8 @@ predict("60", len(ros.messages("temperature")))
 # The two sides only have to agree on the name of the topic and on the [**message
 # type**](../docs/glossary.md#message-type), which defines what kind of data a message carries.
 #
-# Here is a reporter. It publishes text, which has the message type `String`, on a topic of your choice.
-# `create_timer(1.0, self.write)` creates a [**timer**](../docs/glossary.md#timer) that calls `write` every 1.0
-# seconds. Page 03 explains the number 10.
+# Here is a reporter. It publishes text, which has the message type `String`, on a topic of your choice. Its
+# [**timer**](../docs/glossary.md#timer) calls `write` every 1.0 seconds. Page 03 explains the number 10.
 
 # %%
 class Reporter(Node):
@@ -137,8 +154,8 @@ class Reader(Node):
         self.get_logger().info(f"I read: {msg.data}")
 
 # %% [markdown]
-# You can pass a class to `add`, as you did with the thermometer. If the constructor needs arguments, create the node
-# yourself and pass the object. A new session starts with no nodes.
+# A `Reporter` has to be told its topic and its article, so this time you create the nodes yourself, and add them to a
+# new, empty session.
 #
 # **Predict:** there are three reporters and two readers, and nobody reads politics. A reader logs a line for each
 # message it receives. How many lines appear in two seconds?
@@ -170,14 +187,6 @@ viz.graph(newsroom)
 # %% [markdown]
 # Together, the nodes and their topics form the [**ROS graph**](../docs/glossary.md#ros-graph). Notice that no arrow
 # goes directly from one node to another. Every message goes through a topic.
-
-# %% shows=true
-viz.timeline(newsroom)
-
-# %% [markdown]
-# Time runs from left to right. Squares are callbacks of timers; circles are callbacks of subscribers. In virtual time,
-# messages on sports and weather arrive at the instant they are sent; on a robot, this takes a moment. The short
-# arrows are messages on politics, which nobody receives.
 #
 # ## Take the newsroom apart
 #
@@ -224,23 +233,24 @@ newsroom.run(seconds=2)
 # ## See what this is good for
 #
 # In most programming languages, the first program prints *Hello World*. In ROS 2, a publisher and a subscriber play
-# that role. They are the smallest system that shows how you create nodes, how data flows through the graph, and
-# what you need for it: a client library (here `rclpy`, for Python) and message types. Services and actions, the
-# other two ways in which nodes talk, come later.
+# that role: the smallest system that introduces how ROS programs communicate. It shows how you create nodes and how
+# data flows through the graph. It also needs the two things that every ROS program needs: message types, and a
+# [**client library**](../docs/glossary.md#client-library), which connects your language to ROS. For Python, that's
+# `rclpy`. Services and actions, the other two ways in which nodes talk, build upon this; page 12 is about them.
 #
 # The tutorial names five benefits of publish and subscribe. Page 09 puts each of them to the test:
 #
-# - **modularity:** a large system is made of small nodes, each with a single task;
-# - **decentralization:** if one node crashes, the others can often carry on;
+# - **modularity:** a large system is made of small nodes, each with a single task, such as a camera driver, a motor
+#   controller or a planner;
+# - **decentralization:** there is no single point of failure, so if one node crashes, the others can often carry on;
 # - **scalability:** you can add nodes without changing existing code;
-# - **concurrency:** nodes run independently, often at the same time;
+# - **concurrency:** nodes run independently, often at the same time, and on several cores of a computer;
 # - **reusability:** the same node can work in another robot.
 #
 # ## Try it: read the weather
 #
 # Replace the blank `____` so that this reader gets the weather and nothing else. Run the cell, and then the check
-# below it. If you're stuck, use the *Hint* button below the check, or run `hint("00a")` in a cell of your own. Each
-# time, it tells you a little more.
+# below it. If you're stuck, press *Hint* below the check. Each time, it tells you a little more.
 
 # %% exercise="00a"
 class WeatherReader(Node):
@@ -311,8 +321,8 @@ viz.graph(newsroom.explain("sport"))
 
 # %% [markdown]
 # Dan subscribes to `/sport`, but the reporter publishes on `/sports`. A dashed arrow means that its topic has only
-# one side. The dashed line between the two boxes points out that their names are almost the same. In the
-# explanation, the text in brackets after the message type is the QoS profile; page 08 explains it.
+# one side, and the dashed line between the two boxes says that their names are almost the same. Never mind the words in
+# brackets after the message type: they are delivery settings, and page 08 is about them.
 #
 # To fix it, add the missing letter.
 
@@ -321,7 +331,7 @@ newsroom.add(Reader("dan", "sports"))
 newsroom.run(seconds=1)
 
 # %% [markdown]
-# In a session, adding a node replaces an older node of the same name. On a robot, both would run.
+# Here, the new Dan replaces the old one. On a robot, both would run.
 #
 # ## Three questions
 #
@@ -341,9 +351,17 @@ quiz("00", "b", "a", "c")
 # - The two sides agree on the topic's name and the message type. They don't need to know about each other.
 # - When nothing arrives, ask `explain`, and look at the graph.
 #
-# Only the clock, the processes and the data are simulated. The classes are ordinary ROS 2 code, and their messages
-# travel through the same [**middleware**](../docs/glossary.md#middleware) that robots use: the software that
-# delivers messages.
+# What was real today? Your classes are ordinary ROS 2 code, and their messages went through real
+# [**middleware**](../docs/glossary.md#middleware), the software that delivers messages on robots, too. Only the clock,
+# the processes and the temperature were simulated.
+#
+# | here | on a robot |
+# |---|---|
+# | `ros.add(Thermometer)` | `ros2 run PACKAGE thermometer`, in a terminal |
+# | `viz.graph(ros)` | `rqt_graph` |
+# | the log lines below a cell | the same lines, in the terminal |
+#
+# **Rosie can now** tell everybody how warm it is.
 #
 # **Next:** [create a workspace](01_create_a_workspace.ipynb). The cell with `progress()` at the end of each page
 # shows how far you've come.

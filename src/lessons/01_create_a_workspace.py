@@ -1,6 +1,6 @@
 # ---
 # title: Create a workspace
-# minutes: 25
+# minutes: 30
 # needs: ["00"]
 # summary: Type your first commands in a real terminal, and make the folder that everything you build will live in.
 # ---
@@ -14,35 +14,76 @@
 # - move around with absolute and relative paths (01b, 01.1);
 # - explain why two terminals can behave differently (01.3).
 #
-# **Time:** 25 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
+# **Time:** 30 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
 #
-# So far, your nodes have lived on a page. To run as programs of their own, on a robot or on your computer, they
-# need files, arranged in a certain way. The folder that holds these files is called a
-# [**workspace**](../docs/glossary.md#workspace).
+# Rosie needs a place for her programs to live. You'll build it on this page, but first, let's see what a program of
+# hers does when it runs on its own, in a terminal and in real time.
 #
 # ## Open a terminal
 #
 # People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). Your page has terminals
-# of its own. The first cell draws the map of the course again:
+# of its own. Begin with the map:
 
 # %%
 viz.diagram("01")
 
 # %% [markdown]
-# A cell that begins with `%%terminal` and a name types its lines into the terminal with that name. It's
-# a real terminal, and it stays open from one cell to the next. `pwd` is short for *print working directory*: it
-# prints the folder you're in.
+# A cell that begins with `%%terminal` and a name types its lines into the terminal with that name. It's a real
+# terminal, and it stays open from one cell to the next. This one starts Rosie, and keeps her running:
+
+# %% terminal="rosie --until waits" tags=["nbval-ignore-output"] shows=true
+# ros2 run rosie rover
+
+# %% [markdown]
+# Rosie is awake. Look at her:
+
+# %% shows=true
+watch_robot()
+
+# %% [markdown]
+# Hold an arrow and she drives; drag the slider and she gets faster. The orange marks are what her laser scanner sees.
+# All of this is messages, and any other terminal can listen in:
+
+# %% terminal="one" shows=true
+# ros2 topic list
+# ros2 service call /rosie/reset std_srvs/srv/Empty > /dev/null
+# ros2 topic echo --once /rosie/pose
+
+# %% [markdown]
+# `ros2 topic list` prints the topics that exist now. The next line puts Rosie back to the door, and `ros2 topic echo`
+# prints the next message about where she is: `x` and `y` in meters, `theta` is her direction.
+#
+# Can a terminal also talk to her? Watch the picture while you run the next cell:
+
+# %% terminal="one" tags=["nbval-ignore-output"] shows=true
+# ros2 topic pub --once /rosie/cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.4}, angular: {z: 1.0}}"
+
+# %% [markdown]
+# She drove for a second and stopped, because a robot that hears nothing more should not drive on. To her, it makes no
+# difference whether a button, a terminal or another node publishes the command, as long as the message has the right
+# type: `geometry_msgs/msg/Twist`, which comes with ROS. You'd type the same lines on any robot.
+#
+# In an ordinary terminal, you'd press `Ctrl` + `C` to end the program. On a page, `%terminal` with one percent sign
+# presses the keys for you:
+
+# %% terminal="rosie --ctrl-c" tags=["nbval-ignore-output"] shows=true
+
+# %% [markdown]
+# JupyterLab has terminals of its own, too: choose *File, New, Terminal*. Every command of a terminal cell works there.
+# Soon, Rosie will run programs that *you* wrote. They need files, arranged in a certain way, and the folder that holds
+# these files is called a [**workspace**](../docs/glossary.md#workspace).
+#
+# ## Find out where you are
+#
+# `pwd` is short for *print working directory*: it prints the folder you're in.
 
 # %% terminal="one"
 # pwd
 
 # %% [markdown]
 # The line with the `$` shows the command. The text before the `$` is the current folder, in short form. The line
-# below is the output: the folder in which the terminal starts. For you, that's the folder of your pages. `~` is
-# short for your home folder.
-#
-# JupyterLab has terminals of its own: choose *File, New, Terminal*. Every command of a terminal cell works there,
-# too.
+# below is the output: the folder in which the terminal starts. For you, that's the folder of your pages. A `~` in
+# such a path is short for your home folder.
 #
 # ## Make the folder
 #
@@ -177,7 +218,8 @@ check("01b", workspace.terminal("two"))
 
 # %% [markdown]
 # `jazzy` is the version of ROS 2, and `ros2` is its command-line tool. Here it lists the packages that are
-# installed. `| grep rclpy` keeps only the lines that contain `rclpy`, the ROS library for Python.
+# installed. `| grep rclpy` keeps only the lines that contain `rclpy`, the ROS library for Python. A robot has the
+# original `ros2`. Yours was written for this course, because pip doesn't offer the original, and it answers alike.
 #
 # You can add a name of your own to the environment with `export`:
 
@@ -264,6 +306,15 @@ quiz("01", "b", "c", "a")
 # - Exit code 0 means success.
 # - Each terminal has its own current folder and its own environment.
 # - Run `colcon build` in the workspace, not in `src`.
+#
+# | here | on a robot |
+# |---|---|
+# | a cell with `%%terminal one` | a terminal window |
+# | `%terminal one --ctrl-c` | `Ctrl` + `C` in that window |
+# | ROS is there in every terminal | `source /opt/ros/jazzy/setup.bash` first |
+# | `watch_robot()` | RViz, or the robot itself |
+#
+# **Rosie can now** drive where you tell her, and has a place for her programs.
 #
 # **Next:** [create a package](02_create_a_package.ipynb) in `src`.
 

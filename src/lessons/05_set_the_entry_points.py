@@ -52,9 +52,8 @@ viz.diagram("05")
 # ./temperature_publisher.py
 
 # %% [markdown]
-# This is a real node, running on its own. In an ordinary terminal, you'd press `Ctrl` + `C` to stop it. On a page,
-# `%terminal` with one percent sign types no command: `--ctrl-c` presses keys, and `--until` waits for a text. Then
-# `$?` holds the exit code of the last command.
+# This is a real node, running on its own. `--until` has waited for a text in its output. Stop it as you stopped Rosie;
+# afterwards, `$?` holds the exit code of the last command.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"] shows=true
 

@@ -156,7 +156,7 @@ def run(tmp_path_factory):
     write_pages(root)
     write_built_page(root)
     (root / "pytest.ini").write_text("[pytest]\ntestpaths = tests\n")
-    return run_pytest(root, "--nbval-cell-timeout=2", "solutions", "notebooks")
+    return run_pytest(root, "--nbval-cell-timeout=6", "solutions", "notebooks")
 
 
 @pytest.mark.parametrize("cell", [cell for cell in CELLS if "/fine:" in cell])
