@@ -1,6 +1,6 @@
 # ---
 # title: Hear the heartbeat
-# minutes: 30
+# minutes: 35
 # needs: []
 # summary: Run real ROS 2 nodes in a page, and see how publishers and subscribers talk without knowing each other.
 # ---
@@ -20,7 +20,7 @@
 # hear it. This course follows a tutorial, *The Heartbeat of Robotics: Understanding ROS2's Publisher-Subscriber
 # System*. You'll run every step of it, and test its claims.
 #
-# **Time:** 30 minutes. **You need:** a little Python: classes, methods, `self`.
+# **Time:** 35 minutes. **You need:** a little Python: classes, methods, `self`.
 #
 # This page is a [**notebook**](../docs/glossary.md#notebook), made of [**cells**](../docs/glossary.md#cell). Click the
 # first one with code and press `Shift` + `Enter` to run it, then the next, down to the end. While a cell is running, it

@@ -1,6 +1,6 @@
 # ---
 # title: Create a workspace
-# minutes: 30
+# minutes: 35
 # needs: ["00"]
 # summary: Type your first commands in a real terminal, and make the folder that everything you build will live in.
 # ---
@@ -14,7 +14,7 @@
 # - move around with absolute and relative paths (01b, 01.1);
 # - explain why two terminals can behave differently (01.3).
 #
-# **Time:** 30 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
+# **Time:** 35 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
 #
 # Rosie needs a place for her programs to live. You'll build it on this page, but first, let's see what a program of
 # hers does when it runs on its own, in a terminal and in real time.
@@ -208,24 +208,26 @@ check("01b", workspace.terminal("two"))
 # ## Check that ROS is there
 #
 # `ROS2_WORKSPACE` is one of many names that a terminal stores. Together they are called its
-# [**environment**](../docs/glossary.md#environment), and every command that you run receives a copy of it. On a
-# robot, you would first type `source /opt/ros/jazzy/setup.bash`, which sets up the environment so that ROS can be
-# found. In this course, every terminal starts with that already done.
+# [**environment**](../docs/glossary.md#environment), and every command that you run receives a copy of the names that
+# are exported. On a robot, you would first type `source /opt/ros/jazzy/setup.bash`, which sets up the environment so
+# that ROS can be found. In this course, every terminal starts with that already done.
 
 # %% terminal="one"
 # echo $ROS_DISTRO
 # ros2 pkg list | grep rclpy
 
 # %% [markdown]
-# `jazzy` is the version of ROS 2, and `ros2` is its command-line tool. Here it lists the packages that are
+# `jazzy` is the name of a *distribution*, a version of ROS 2 with all its packages, and a good word to add to any web
+# search. `ros2` is the command-line tool. Here it lists the packages that are
 # installed. `| grep rclpy` keeps only the lines that contain `rclpy`, the ROS library for Python. A robot has the
 # original `ros2`. Yours was written for this course, because pip doesn't offer the original, and it answers alike.
 #
-# You can add a name of your own to the environment with `export`:
+# You can add a name of your own to the environment with `export`. Then other programs get it, too, such as a second
+# `bash`:
 
 # %% terminal="one"
 # export ROBOT=Rosie
-# echo "I am $ROBOT"
+# bash -c 'echo "I am $ROBOT"'
 
 # %% [markdown]
 # What does terminal `two` print?
@@ -239,8 +241,8 @@ check("01b", workspace.terminal("two"))
 #
 # ## Build an empty workspace
 #
-# `colcon` is the tool that builds a workspace. It looks for packages in the current folder and below, turns them
-# into programs that ROS can start, and puts the results into new folders.
+# `colcon` is the tool that builds a workspace. It looks for packages in the current folder and below, builds them so
+# that ROS can find them and start their programs, and puts the results into new folders.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE"
@@ -265,9 +267,9 @@ viz.diagram("workspace")
 
 # %% [markdown]
 # **Symptom:** an error and exit code 1. **Where to look:** the path in the message. **Cause:** the path begins with
-# `/`, so it starts at the top of the file system, where there is no folder `Documents`, and where you may not
-# create one. **Fix:** the tutorial means `~/Documents/...`, in your home folder. A single character makes the
-# difference.
+# `/`, so it starts at the top of the file system, where there is no folder `Documents`. **Fix:** the tutorial means
+# `~/Documents/...`, in your home folder. A single character makes the difference. Where even your home folder has no
+# `Documents`, as on many servers, `mkdir -p ~/Documents/ROS2_and_RL_Tutorials` creates both.
 #
 # ## What went wrong: the wrong folder
 #
@@ -279,9 +281,9 @@ viz.diagram("workspace")
 # ls
 
 # %% [markdown]
-# Now the three folders are in `src` as well, where nothing looks for them. **Fix:** remove them, and build in
-# the workspace itself. `rm` removes files; `rm -r` removes folders and everything in them. There is no recycle
-# bin to get them back from, so read such a line twice before you run it.
+# Now `src` has its own `build`, `install` and `log`. Nothing will ever look there. **Fix:** remove them, and build in the
+# workspace itself. `rm` removes files; `rm -r` removes folders and everything in them. What `rm` removes is gone,
+# because there is no recycle bin, so read the line twice before you press `Enter`.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE/src"

@@ -1,6 +1,6 @@
 # ---
 # title: Create a package
-# minutes: 30
+# minutes: 35
 # needs: ["00", "01"]
 # summary: Make the package of the temperature sensor, learn what each of its files is for, build it and load it.
 # ---
@@ -14,7 +14,7 @@
 # - describe a package in its manifest (02a, 02.3);
 # - build a workspace and source it, and tell when one of the two is missing (02.2).
 #
-# **Time:** 30 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
+# **Time:** 35 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
 #
 # A [**package**](../docs/glossary.md#package) is a folder that contains code and a few files that describe it. It's
 # the smallest unit that ROS can build, install and find, and it's what people share: a camera driver is a package,
@@ -46,9 +46,10 @@ viz.diagram("02")
 # | `sensor_simulator` | the package's name: lower case, with words joined by `_` |
 # | `--dependencies rclpy std_msgs` | what the package needs: the ROS library for Python, and standard messages such as `Float32` and `String` |
 #
-# A [**dependency**](../docs/glossary.md#dependency) is a package that yours needs. `--dependencies` doesn't install
-# anything: it writes the names into the package, where other tools can read what to install on a robot. The warning
-# at the end is about the licence, which you'll choose below.
+# A [**dependency**](../docs/glossary.md#dependency) is a package that yours needs; every Python node needs `rclpy`.
+# `--dependencies` doesn't install anything: it writes the names into the package, where `rosdep`, ROS's tool for
+# dependencies, can read what to install on a robot. The warning at the end is about the license, which you'll choose
+# below; with `--license Apache-2.0`, `ros2 pkg create` would have filled it in.
 
 # %% terminal="build"
 # find sensor_simulator -type f | sort
@@ -89,17 +90,17 @@ viz.diagram("02")
 
 # %% [markdown]
 # This is the [**manifest**](../docs/glossary.md#manifest): it states the package's name, its version, a
-# description, who maintains it, the licence under which others may use it (the tag uses the American spelling,
-# `license`), and what it needs. `<depend>` names packages that it needs in order to run, and `<test_depend>` names
-# packages that only its tests need. `<build_type>` tells colcon how to build it.
+# description, who maintains it, the license under which others may use it, and what it needs. `<depend>` names
+# packages that it needs, to be built and to run, and `<test_depend>` names packages that only its tests need.
+# `<build_type>` tells colcon how to build it.
 #
 # Two entries still say `TODO`. That does no harm today, but a package that you share needs both: without a
-# licence, nobody else is allowed to use it. The maintainer's name is a guess, taken from this computer's settings.
+# license, nobody else is allowed to use it. The maintainer's name and address are guesses.
 #
 # ## Try it: complete the manifest
 #
 # A cell that begins with `%%save` becomes a file in your workspace. If the file already exists and is different, the
-# course keeps the earlier version. Write a description of your own, and choose a licence: ROS itself uses
+# course keeps the earlier version. Write a description of your own, and choose a license: ROS itself uses
 # `Apache-2.0`. You can also fill in your name and email address.
 
 # %% save="src/sensor_simulator/package.xml" exercise="02a"
@@ -173,7 +174,8 @@ check("02a", workspace.folder())
 
 # %% [markdown]
 # Now `ros2` finds the package, and `ros2 pkg prefix` prints where it's installed. This step is called
-# [**sourcing**](../docs/glossary.md#sourcing) the workspace. Your workspace lies on top of ROS like a transparent
+# [**sourcing**](../docs/glossary.md#sourcing) the workspace. On a robot, make it a habit to source in a new terminal and
+# not in the one that builds, because later builds may pick up what was sourced before. Your workspace lies on top of ROS like a transparent
 # sheet, so it's called an [**overlay**](../docs/glossary.md#overlay). It adds packages, and leaves those underneath
 # as they are.
 #
@@ -186,8 +188,8 @@ check("02a", workspace.folder())
 viz.diagram("overlay")
 
 # %% [markdown]
-# The second terminal has to source the workspace itself. This is the most common surprise in the first weeks with
-# ROS: a package is built, and a new terminal doesn't find it. Whenever you read *Package not found*, ask two
+# The second terminal has to source the workspace itself. This is a common surprise in the first weeks with ROS: a
+# package is built, and a new terminal doesn't find it. Whenever you read *Package not found*, ask two
 # questions. Is it built? There should be a folder of its name in `install`. Is it loaded? *This* terminal should have
 # run `source install/setup.bash`.
 

@@ -1,6 +1,6 @@
 # ---
 # title: Write a publisher
-# minutes: 40
+# minutes: 60
 # needs: ["00", "02"]
 # summary: Build the temperature sensor line by line: imports, node, publisher, timer, random walk, clamp, log and the script entry point.
 # ---
@@ -15,7 +15,7 @@
 # - write a whole publisher, and turn it into a program (03c, 03.3);
 # - explain why a subscriber sees slightly different digits from the publisher (03.2).
 #
-# **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
+# **Time:** 60 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
 # package, you also need [create a package](02_create_a_package.ipynb).
 #
 # ## Import what you need
@@ -73,7 +73,8 @@ predict("1", len(ros.logs()))
 # %% [markdown]
 # ## Publish on every tick
 #
-# Two calls in the constructor turn the node into a sensor that publishes regularly:
+# Two calls in the constructor turn the node into a sensor that publishes regularly. Strictly speaking, a node *has*
+# publishers, but people often call a node with one a publisher, too.
 #
 # - `create_publisher(Float32, "temperature", 10)` creates a publisher for one topic. The arguments are
 #   the message type, the topic's name, and the **queue depth**: how many of the newest messages the

@@ -1,6 +1,6 @@
 # ---
 # title: Write a subscriber
-# minutes: 40
+# minutes: 90
 # needs: ["00", "03"]
 # summary: Build the temperature monitor: a subscription, a callback with three states, and what sets subscriber and publisher apart.
 # ---
@@ -15,7 +15,7 @@
 # - smooth readings, and keep a status from flickering by using two limits (04c, 04d, 04e);
 # - predict what a queue keeps, and what a late subscriber receives (04.1, 04.2).
 #
-# **Time:** 40 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
+# **Time:** 90 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
 
 # %%
 import random

@@ -1,6 +1,6 @@
 # ---
 # title: Set the entry points
-# minutes: 30
+# minutes: 35
 # needs: ["02", "03", "04"]
 # summary: Tell setup.py which functions become programs, and see what chmod +x does and does not do.
 # ---
@@ -14,7 +14,7 @@
 # - read an entry point, and repair a broken one (05b, 05.1);
 # - tell what `chmod +x` does, and what it does not do (05.2).
 #
-# **Time:** 30 minutes. **You need:** [create a package](02_create_a_package.ipynb),
+# **Time:** 35 minutes. **You need:** [create a package](02_create_a_package.ipynb),
 # [write a publisher](03_write_a_publisher.ipynb) and [write a subscriber](04_write_a_subscriber.ipynb).
 #
 # The two files are in your package, but nothing marks them as programs yet. For that, `setup.py` needs one entry
@@ -82,9 +82,9 @@ viz.diagram("05")
 # timeout 5 ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# No. `ros2 run` never looks at your files in `src`, and their permissions make no difference to it.
-# There's a good reason: a robot may not have `src` at all, only what was installed. `ros2 run`
-# looks for programs in one folder of the installed package, and so far, there are none.
+# No. `ros2 run` doesn't search `src`, and for a Python package such as yours, the permissions there make no difference
+# to it. There's a good reason: a robot may not have `src` at all, only what was installed. `ros2 run` looks for programs
+# in one folder of the installed package, and so far, there are none.
 #
 # ## Read setup.py
 #
@@ -105,8 +105,8 @@ viz.diagram("05")
 # | `extras_require` | what its tests need |
 # | `entry_points` | which functions become programs |
 #
-# Two of these are easy to get wrong. A folder without an `__init__.py` isn't a Python package: `find_packages`
-# skips it, and its code isn't installed. And a file that isn't code, such as a picture or a settings file, is
+# Two of these are easy to get wrong. A folder without an `__init__.py` isn't a regular Python package:
+# `find_packages` skips it, and its code isn't installed. And a file that isn't code, such as a picture or a settings file, is
 # installed only if `data_files` lists it.
 #
 # The last piece matters most here.
@@ -133,7 +133,7 @@ viz.diagram("05")
 #
 # Write the two entries. The executables are called `temperature_publisher` and `temperature_subscriber`, like their
 # files in the Python package `sensor_simulator`, and each entry calls `main`. Keep the comma at the end of each
-# line. You can also fill in your own description and licence, to match your `package.xml`.
+# line. You can also fill in your own description and license, to match your `package.xml`.
 
 # %% save="src/sensor_simulator/setup.py" exercise="05a"
 from setuptools import find_packages, setup

@@ -1,6 +1,6 @@
 # ---
 # title: Build, source, run
-# minutes: 35
+# minutes: 45
 # needs: ["05"]
 # summary: Start the sensor in one terminal and the monitor in another, and see what crosses from one process to the other.
 # ---
@@ -14,10 +14,10 @@
 # - explain why a change has no effect yet, and fix that (06a, 06b, 06.1);
 # - predict what happens when one of two programs stops (06.2).
 #
-# **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
+# **Time:** 45 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
-# Each process has its own memory, which no other process can read. Two nodes in two processes share nothing but the
-# messages that ROS carries between them. If something from an earlier page is missing, the course creates it when the
+# Each process has its own memory, and by default, no other process can read it. What the nodes of two processes know of
+# each other arrives in the messages that ROS carries between them. If something from an earlier page is missing, the course creates it when the
 # first terminal opens.
 
 # %%
@@ -75,8 +75,8 @@ viz.diagram("06")
 # The first line fails: the package is built, but this terminal hadn't sourced the workspace yet. If a new terminal
 # of yours finds the package anyway, it sources the workspace when it opens, often because of a line in `~/.bashrc`.
 #
-# The monitor sees the next reading that is published after it connects. The earlier ones are gone: a topic doesn't
-# store old messages.
+# The monitor sees the next reading that is published after it connects. The earlier ones are gone: with
+# these settings, a topic doesn't store old messages.
 #
 # ## See the flow of messages
 #
