@@ -44,18 +44,17 @@ watch_robot()
 # Hold an arrow and she drives; drag the slider and she gets faster. The orange marks are what her laser scanner sees.
 # All of this is messages, and any other terminal can listen in:
 
-# %% terminal="one" shows=true
+# %% terminal="look" shows=true
 # ros2 topic list
-# ros2 service call /rosie/reset std_srvs/srv/Empty > /dev/null
 # ros2 topic echo --once /rosie/pose
 
 # %% [markdown]
-# `ros2 topic list` prints the topics that exist now. The next line puts Rosie back to the door, and `ros2 topic echo`
-# prints the next message about where she is: `x` and `y` in meters, `theta` is her direction.
+# `ros2 topic list` prints the topics that exist now, and `ros2 topic echo --once` prints the next message about where
+# she is: `x` and `y` are in meters, and `theta` is her direction.
 #
 # Can a terminal also talk to her? Watch the picture while you run the next cell:
 
-# %% terminal="one" tags=["nbval-ignore-output"] shows=true
+# %% terminal="look" tags=["nbval-ignore-output"] shows=true
 # ros2 topic pub --once /rosie/cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.4}, angular: {z: 1.0}}"
 
 # %% [markdown]

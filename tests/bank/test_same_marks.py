@@ -26,7 +26,7 @@ def marks():
 
 
 @pytest.mark.ros
-@pytest.mark.timeout(3_600 if ALL else 120)  # the first one waits for all
+@pytest.mark.timeout(3_600 if ALL else 600)  # the first one waits for all
 @pytest.mark.parametrize("answer", CHOSEN, ids=lambda answer: answer.id)
 def test_an_answer_gets_the_same_outcome_everywhere(answer, marks, workspace):
     assert marks[answer.id] == told(answer, workspace, patient=True)

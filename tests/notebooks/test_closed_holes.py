@@ -168,7 +168,7 @@ def test_logs_of_c_code_and_other_ordinary_things_pass(run, cell):
     ("cell", "message"),
     [
         ("solutions/dies:dies", "The kernel died in this cell"),
-        ("solutions/slow:slow", "Timeout of 2 seconds"),
+        ("solutions/slow:slow", "Timeout of 6 seconds"),
         ("solutions/wrong:expected", "raised none"),
         ("solutions/wrong:clear", "clear_output"),
         ("solutions/wrong:differs", "Cell outputs differ"),

@@ -96,17 +96,17 @@ def view_of_answers() -> View:
     kept = {name: os.environ[name] for name in _KEPT if name in os.environ}
     package = Path(__file__).resolve().parents[1]
     return View(
-        [*python_folders(), *_commands(), *(kept[name] for name in _FILES if name in kept)],
+        [*python_folders(), *_programs(), *(kept[name] for name in _FILES if name in kept)],
         [str(package / name) for name in _HIDDEN],
         {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"},
     )
 
 
-def _commands() -> list[str]:
-    """Return the folder of the `ros2` command, where it is the course's own."""
-    spec = importlib.util.find_spec("ros2_command")
-    folders = spec.submodule_search_locations if spec else None
-    return [str(Path(folder).resolve().parent) for folder in folders or ()]
+def _programs() -> list[str]:
+    """Return the folders of the `ros2` command and of Rosie, where they are the course's own."""
+    specs = [importlib.util.find_spec(name) for name in ("ros2_command", "rosie")]
+    folders = [place for spec in specs if spec for place in spec.submodule_search_locations or ()]
+    return [str(Path(folder).resolve().parent) for folder in folders]
 
 
 def limits_of(job: PageJob, seconds: float = WALL) -> Limits:
