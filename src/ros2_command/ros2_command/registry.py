@@ -70,6 +70,7 @@ COMMANDS = {
     "completion": "Output what a shell needs to complete this command",
     "doctor": "Check ROS setup and other potential issues",
     "interface": "Show information about ROS interfaces",
+    "launch": "Run a launch file",
     "node": "Various node related sub-commands",
     "param": "Various param related sub-commands",
     "pkg": "Various package related sub-commands",
@@ -86,7 +87,7 @@ LEFT_OUT_VERBS = {
 }
 #: Commands of the full ROS 2 that are not in this subset.
 LEFT_OUT = (
-    *("component", "control", "daemon", "extension_points", "extensions", "launch", "lifecycle"),
+    *("component", "control", "daemon", "extension_points", "extensions", "lifecycle"),
     *("multicast", "plugin", "security", "test", "trace"),
 )
 WHERE_TO_GET_THE_WHOLE = (
