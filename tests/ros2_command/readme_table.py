@@ -53,6 +53,8 @@ UPSTREAM = {
     "interface packages": _KINDS,
     "interface proto": "--no-quotes",
     "interface show": "--all-comments --no-comments",
+    "launch": "--noninteractive --debug --print --print-description --show-args --show-arguments "
+    "--show-all-subprocesses-output --launch-prefix --launch-prefix-filter",
     "node info": f"{_GRAPH} --include-hidden",
     "node list": f"{_GRAPH} --all --count-nodes",
     "param delete": _NODE,

@@ -45,7 +45,7 @@ def test_the_help_says_what_is_left_out(ros2):
 
 
 @pytest.mark.parametrize(
-    "words", [["daemon", "stop"], ["launch", "a", "b"], ["bag", "convert"], ["doctor", "hello"]]
+    "words", [["daemon", "stop"], ["component", "a", "b"], ["bag", "convert"], ["doctor", "hello"]]
 )
 def test_what_is_left_out_says_where_to_get_it(capsys, words):
     assert main(words) == 1

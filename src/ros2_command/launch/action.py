@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.events import ExecutionComplete
-from ros2_command.names import nearest
+from ros2_command.names import did_you_mean
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.conditions import Condition
@@ -44,13 +45,9 @@ class Action(LaunchDescriptionEntity):
         **unknown: No other argument is known.
     """
 
-    def __init__(self, *, condition: Condition | None = None, **unknown: Any) -> None:
+    def __init__(self, *, condition: Condition | None = None, **unknown: Untyped) -> None:
         for name in unknown:
-            meant = nearest(name, _argument_names(type(self)))
-            hint = f"; did you mean '{meant}'?" if meant else ""
-            raise TypeError(
-                f"{type(self).__name__}() got an unexpected keyword argument '{name}'{hint}"
-            )
+            raise ArgumentNameError(name, type(self))
         self.condition = condition
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -87,6 +84,17 @@ class Action(LaunchDescriptionEntity):
         """Do it, and return the parts to visit next."""
         del context
         return None
+
+
+class ArgumentNameError(TypeError):
+    """Say that an action has no argument of a name."""
+
+    def __init__(self, name: str, action_class: type[Action]) -> None:
+        super().__init__(f"Action.__init__() got an unexpected keyword argument '{name}'")
+        self.meaning = f"`{action_class.__name__}` has no argument `{name}`."
+        self.advice = did_you_mean(
+            name, _argument_names(action_class), "Compare it with the documentation of the action."
+        )
 
 
 def _argument_names(action_class: type) -> list[str]:

@@ -24,6 +24,7 @@ from launch.substitution import (
     performed_as,
     performed_flag,
 )
+from ros2_command.untyped import Untyped
 
 __all__ = [
     "AppendEnvironmentVariable", "DeclareLaunchArgument", "EmitEvent", "ExecuteLocal",
@@ -44,7 +45,7 @@ _DEEPEST = 100
 class LogInfo(Action):
     """Log a line."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, **action: Any) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **action: Untyped) -> None:
         super().__init__(**action)
         self.msg = normalize_to_list_of_substitutions(msg)
 
@@ -66,7 +67,7 @@ class DeclareLaunchArgument(Action):
 
     def __init__(
         self, name: str, *, default_value: SomeSubstitutionsType | None = None,
-        description: str | None = None, choices: list[str] | None = None, **action: Any,
+        description: str | None = None, choices: list[str] | None = None, **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(**action)
         self.name, self.choices = name, choices
@@ -77,7 +78,9 @@ class DeclareLaunchArgument(Action):
         self.conditionally_included = False
         if choices is not None:
             if not choices:
-                raise ValueError("Provided choices arg is empty. Use None to ignore the choice list.")
+                raise ValueError(
+                    "Provided choices arg is empty. Use None to ignore the choice list."
+                )
             if isinstance(default_value, str) and default_value not in choices:
                 raise ValueError(
                     f'Provided default_value "{default_value}" is not in provided choices '
@@ -95,6 +98,11 @@ class DeclareLaunchArgument(Action):
         values = context.launch_configurations
         if self.name not in values:
             if self.default_value is None:
+                self._log(
+                    context,
+                    f'Required launch argument "{self.name}" (description: "{self.description}") '
+                    "was not provided",
+                )
                 raise LaunchError(
                     f'Required launch argument "{self.name}" was not provided.',
                     f"The argument has no default. It is for: {self.description}",
@@ -102,19 +110,26 @@ class DeclareLaunchArgument(Action):
                 )
             values[self.name] = performed(context, self.default_value)
         if self.choices is not None and values[self.name] not in self.choices:
-            raise LaunchError(
+            what = (
                 f'Argument "{self.name}" provided value "{values[self.name]}" is not valid. Valid '
-                f"options are: {self.choices}",
+                f"options are: {self.choices}"
+            )
+            self._log(context, what)
+            raise LaunchError(
+                what,
                 "The launch file takes only these values for this argument.",
                 f"Type one of them, as in {self.name}:={self.choices[0]}",
             )
+
+    def _log(self, context: LaunchContext, text: str) -> None:
+        context.host.log(logging.ERROR, "launch.actions.declare_launch_argument", text)
 
 
 class SetLaunchConfiguration(Action):
     """Give a launch configuration a value."""
 
     def __init__(
-        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **action: Any
+        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **action: Untyped
     ) -> None:
         super().__init__(**action)
         self.name = normalize_to_list_of_substitutions(name)
@@ -130,7 +145,7 @@ class SetLaunchConfiguration(Action):
 class UnsetLaunchConfiguration(Action):
     """Take a launch configuration away."""
 
-    def __init__(self, name: SomeSubstitutionsType, **action: Any) -> None:
+    def __init__(self, name: SomeSubstitutionsType, **action: Untyped) -> None:
         super().__init__(**action)
         self.name = normalize_to_list_of_substitutions(name)
 
@@ -143,7 +158,7 @@ class SetEnvironmentVariable(Action):
     """Set an environment variable for the processes that start after it."""
 
     def __init__(
-        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **action: Any
+        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **action: Untyped
     ) -> None:
         super().__init__(**action)
         self.name = normalize_to_list_of_substitutions(name)
@@ -160,7 +175,7 @@ class AppendEnvironmentVariable(SetEnvironmentVariable):
     def __init__(
         self, name: SomeSubstitutionsType, value: SomeSubstitutionsType,
         prepend: bool | SomeSubstitutionsType = False,
-        separator: SomeSubstitutionsType = os.pathsep, **action: Any,
+        separator: SomeSubstitutionsType = os.pathsep, **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(name, value, **action)
         self.prepend, self.separator = prepend, separator
@@ -177,7 +192,7 @@ class AppendEnvironmentVariable(SetEnvironmentVariable):
 class UnsetEnvironmentVariable(Action):
     """Take an environment variable away."""
 
-    def __init__(self, name: SomeSubstitutionsType, **action: Any) -> None:
+    def __init__(self, name: SomeSubstitutionsType, **action: Untyped) -> None:
         super().__init__(**action)
         self.name = normalize_to_list_of_substitutions(name)
 
@@ -229,7 +244,7 @@ class ResetEnvironment(Action):
 class ResetLaunchConfigurations(Action):
     """Forget all launch configurations but some."""
 
-    def __init__(self, launch_configurations: Pairs | None = None, **action: Any) -> None:
+    def __init__(self, launch_configurations: Pairs | None = None, **action: Untyped) -> None:
         super().__init__(**action)
         self.launch_configurations = launch_configurations or {}
 
@@ -256,7 +271,7 @@ class GroupAction(Action):
 
     def __init__(
         self, actions: Iterable[LaunchDescriptionEntity], *, scoped: bool = True,
-        forwarding: bool = True, launch_configurations: Pairs | None = None, **action: Any,
+        forwarding: bool = True, launch_configurations: Pairs | None = None, **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(**action)
         self._actions, self._scoped, self._forwarding = list(actions), scoped, forwarding
@@ -293,17 +308,16 @@ class IncludeLaunchDescription(Action):
 
     def __init__(
         self, launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType, *,
-        launch_arguments: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]] | None = None,
-        **action: Any,
+        launch_arguments: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]] | None
+        = None,
+        **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(**action)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
         self.launch_description_source = launch_description_source
         if isinstance(launch_arguments, Mapping):
-            raise TypeError(
-                "launch_arguments must be pairs, not a dictionary; write {...}.items()"
-            )
+            raise TypeError("launch_arguments must be pairs, not a dictionary; write {...}.items()")
         self.launch_arguments = tuple(launch_arguments or ())
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -321,7 +335,9 @@ class IncludeLaunchDescription(Action):
             raise LaunchError(
                 "maximum recursion depth exceeded: launch files include each other without end",
                 "The files include each other in this order: "
-                + " -> ".join(os.path.basename(file) for file in above[-above[::-1].index(path) - 1 :])
+                + " -> ".join(
+                    os.path.basename(file) for file in above[-above[::-1].index(path) - 1 :]
+                )
                 + f" -> {os.path.basename(path)}",
                 "Take one of these includes away, or give it a condition.",
             )
@@ -339,7 +355,10 @@ class IncludeLaunchDescription(Action):
                     "nothing gives it a value.",
                     f"Type its value behind the launch file:  {argument.name}:=VALUE",
                 )
-        here = {"current_launch_file_path": path, "current_launch_file_directory": os.path.dirname(path)}
+        here = {
+            "current_launch_file_path": path,
+            "current_launch_file_directory": os.path.dirname(path),
+        }
         before = {name: known.get(name) for name in here}
         return [
             _Locals({**here, "including_launch_files": (*above, path)}),
@@ -373,7 +392,7 @@ class OpaqueFunction(Action):
 
     def __init__(
         self, *, function: Callable[..., Any], args: Sequence[Any] | None = None,
-        kwargs: Mapping[str, Any] | None = None, **action: Any,
+        kwargs: Mapping[str, Any] | None = None, **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(**action)
         if not callable(function):
@@ -389,7 +408,7 @@ class OpaqueFunction(Action):
 class EmitEvent(Action):
     """Make an event happen."""
 
-    def __init__(self, *, event: Event, **action: Any) -> None:
+    def __init__(self, *, event: Event, **action: Untyped) -> None:
         super().__init__(**action)
         if not isinstance(event, Event):
             raise TypeError(
@@ -406,7 +425,7 @@ class EmitEvent(Action):
 class Shutdown(EmitEvent):
     """End the launch."""
 
-    def __init__(self, *, reason: str = "reason not given", **action: Any) -> None:
+    def __init__(self, *, reason: str = "reason not given", **action: Untyped) -> None:
         super().__init__(event=ShutdownEvent(reason=reason), **action)
 
     def execute(self, context: LaunchContext) -> None:
@@ -423,7 +442,7 @@ class Shutdown(EmitEvent):
 class RegisterEventHandler(Action):
     """Let an event handler handle events from now on."""
 
-    def __init__(self, event_handler: BaseEventHandler, **action: Any) -> None:
+    def __init__(self, event_handler: BaseEventHandler, **action: Untyped) -> None:
         super().__init__(**action)
         self.event_handler = event_handler
 
@@ -459,7 +478,7 @@ class TimerAction(Action):
 
     def __init__(
         self, *, period: float | SomeSubstitutionsType, actions: Iterable[LaunchDescriptionEntity],
-        cancel_on_shutdown: bool | SomeSubstitutionsType = True, **action: Any,
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True, **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(**action)
         self.period, self.actions = period, list(actions)

@@ -9,6 +9,7 @@ from launch.action import Action, LaunchDescriptionEntity
 from launch.errors import LaunchError, alias_submodules
 from launch.events import Event, ExecutionComplete, IncludeLaunchDescription, Shutdown
 from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -126,18 +127,22 @@ class _OnAction(_OnEvent):
         self, event_class: type[Event], action_class: type[Action], name: str, on_event: Handled,
         target_action: Action | Callable[[Any], bool] | None, **options: bool,
     ) -> None:  # fmt: skip
-        if target_action is not None and not isinstance(target_action, action_class):
-            if isinstance(target_action, Action) or not callable(target_action):
-                raise LaunchError(
-                    f"{name} must be a '{action_class.__name__}' instance or a callable",
-                    f"{type(self).__name__} waits for an event of this action, and "
-                    f"'{type(target_action).__name__}' has none.",
-                    "Pass the action itself, as in target_action=talker.",
-                )
+        is_function = callable(target_action) and not isinstance(target_action, Action)
+        if (
+            target_action is not None
+            and not is_function
+            and not isinstance(target_action, action_class)
+        ):
+            raise LaunchError(
+                f"{name} must be a '{action_class.__name__}' instance or a callable",
+                f"{type(self).__name__} waits for an event of this action, and "
+                f"'{type(target_action).__name__}' has none.",
+                "Pass the action itself, as in target_action=talker.",
+            )
         self._action_class, self._target = action_class, target_action
         super().__init__(event_class, on_event, self._is_meant, **options)
 
-    def _is_meant(self, event: Any) -> bool:  # noqa: ANN401 - it has an action
+    def _is_meant(self, event: Untyped) -> bool:
         if self._target is None or isinstance(self._target, Action):
             return self._target in (None, event.action)
         return bool(self._target(event.action))
@@ -167,7 +172,11 @@ class OnProcessExit(_OnAction):
     """Do something when a process has ended; when any has, without `target_action`."""
 
     def __init__(
-        self, *, target_action: Any = None, on_exit: Handled, **options: bool  # noqa: ANN401
+        self,
+        *,
+        target_action: Untyped = None,
+        on_exit: Handled,
+        **options: bool,
     ) -> None:
         super().__init__(
             ProcessExited, _process_class(), "target_action", on_exit, target_action, **options
@@ -178,7 +187,11 @@ class OnProcessStart(_OnAction):
     """Do something when a process has started; when any has, without `target_action`."""
 
     def __init__(
-        self, *, target_action: Any = None, on_start: Handled, **options: bool  # noqa: ANN401
+        self,
+        *,
+        target_action: Untyped = None,
+        on_start: Handled,
+        **options: bool,
     ) -> None:
         super().__init__(
             ProcessStarted, _program_class(), "target_action", on_start, target_action, **options
@@ -189,7 +202,7 @@ class OnProcessIO(_OnAction):
     """Call a function with what a process prints; with what any prints, without `target_action`."""
 
     def __init__(
-        self, *, target_action: Any = None, on_stdin: Callable[[Any], Any] | None = None,  # noqa: ANN401
+        self, *, target_action: Untyped = None, on_stdin: Callable[[Any], Any] | None = None,
         on_stdout: Callable[[Any], Any] | None = None,
         on_stderr: Callable[[Any], Any] | None = None, **options: bool,
     ) -> None:  # fmt: skip
@@ -209,7 +222,11 @@ class OnExecutionComplete(_OnAction):
     """Do something when an action is done; when any is, without `target_action`."""
 
     def __init__(
-        self, *, target_action: Any = None, on_completion: Handled, **options: bool  # noqa: ANN401
+        self,
+        *,
+        target_action: Untyped = None,
+        on_completion: Handled,
+        **options: bool,
     ) -> None:
         super().__init__(
             ExecutionComplete, Action, "target_action", on_completion, target_action, **options

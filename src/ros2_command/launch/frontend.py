@@ -18,6 +18,7 @@ from launch.errors import InvalidLaunchFileError, refuse
 from launch.launch_description import LaunchDescription
 from launch.substitution import Substitution, TextSubstitution, from_text
 from ros2_command.names import did_you_mean
+from ros2_command.untyped import Untyped
 
 _Parts = list[Substitution]
 
@@ -50,7 +51,7 @@ class Entity:
     is_yaml: bool
     _read: set[str] = field(default_factory=set)
 
-    def get(self, name: str, *, required: bool = False) -> Any:  # noqa: ANN401 - as it is written
+    def get(self, name: str, *, required: bool = False) -> Untyped:
         """Return an attribute; None if it has none of this name.
 
         Raises:
@@ -94,7 +95,7 @@ class Entity:
         text = self.text(name, required=required)
         return None if text is None else parse_substitution(text)
 
-    def value(self, name: str, kind: Any) -> Any:  # noqa: ANN401 - of this kind, or substitutions
+    def value(self, name: str, kind: Untyped) -> Untyped:
         """Return an attribute as a bool or a number, or the substitutions that stand for one."""
         value = self.get(name)
         if isinstance(value, str):
@@ -182,7 +183,7 @@ def read(path: str, *, is_yaml: bool) -> LaunchDescription:
 
 def _from_xml(text: str) -> Entity:
     try:
-        return _from_element(ElementTree.fromstring(text))  # noqa: S314 - it starts programs anyway
+        return _from_element(ElementTree.fromstring(text))
     except ElementTree.ParseError as error:
         line, column = error.position
         lines = text.splitlines()
@@ -220,7 +221,7 @@ def _from_yaml(text: str) -> Entity:
     return _from_value(str(tag), value)
 
 
-def _from_value(tag: str, value: Any) -> Entity:  # noqa: ANN401 - whatever YAML holds
+def _from_value(tag: str, value: Untyped) -> Entity:
     """Return the entity of a key: a mapping of attributes, or a list of entities."""
     attributes: dict[str, Any] = {}
     children: list[Entity] = []
@@ -350,7 +351,7 @@ _LEFT_OUT_TAGS = {
 }
 
 
-def _modules(given: Any) -> list[str]:  # noqa: ANN401 - a text or its parts
+def _modules(given: Untyped) -> list[str]:
     text = given if isinstance(given, str) else "".join(part.text for part in given)
     return [name.strip() for name in text.split(",") if name.strip()]
 
@@ -534,9 +535,7 @@ def _group(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
         if value is not None:
             given[name] = value
     kept = pairs(entity.inner("keep"))
-    return actions.GroupAction(
-        entity.actions("keep"), launch_configurations=kept or None, **given
-    )
+    return actions.GroupAction(entity.actions("keep"), launch_configurations=kept or None, **given)
 
 
 @tag("timer")

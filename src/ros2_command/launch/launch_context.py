@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.host import Host, SilentHost
 from launch.substitution import Substitution
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.event_handlers import BaseEventHandler
@@ -20,7 +21,7 @@ class Locals:
     def __init__(self, values: Mapping[str, Any]) -> None:
         self.__dict__.update(values)
 
-    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever was put there
+    def __getattr__(self, name: str) -> Untyped:
         raise AttributeError(
             f"context.locals does not contain attribute '{name}', it contains: "
             f"[{', '.join(self.__dict__)}]"

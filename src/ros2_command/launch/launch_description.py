@@ -43,7 +43,9 @@ class LaunchDescription(LaunchDescriptionEntity):
         """Return the parts."""
         if self.deprecated_reason is not None:
             path = context.get_locals_as_dict().get("current_launch_file_path")
-            what = f"launch file [{path}] is deprecated" if path else "deprecated launch description"
+            what = (
+                f"launch file [{path}] is deprecated" if path else "deprecated launch description"
+            )
             context.host.log(logging.WARNING, "root", f"{what}: {self.deprecated_reason}")
         return self.entities
 

@@ -8,8 +8,9 @@ import traceback
 from contextlib import suppress
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from launch.action import ArgumentNameError
 from launch.errors import InvalidLaunchFileError, LaunchError, alias_submodules
 from launch.substitution import (
     SomeSubstitutionsType,
@@ -17,6 +18,7 @@ from launch.substitution import (
     normalize_to_list_of_substitutions,
     performed,
 )
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -134,7 +136,9 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
     return get_launch_description_from_frontend_launch_file(launch_file_path)
 
 
-def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
+def get_launch_description_from_python_launch_file(
+    python_launch_file_path: str,
+) -> LaunchDescription:
     """Read a launch file in Python.
 
     Raises:
@@ -167,7 +171,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
     return description
 
 
-def load_python_launch_file_as_module(python_launch_file_path: str) -> Any:  # noqa: ANN401 - a module of the learner's
+def load_python_launch_file_as_module(python_launch_file_path: str) -> Untyped:
     """Run a launch file in Python, and return it as a module."""
     loader = SourceFileLoader("python_launch_file", python_launch_file_path)
     spec = spec_from_loader(loader.name, loader)
@@ -216,22 +220,27 @@ def _check_file(path: str) -> None:
 def _unreadable(path: str, kind: str, error: Exception) -> InvalidLaunchFileError:
     """Return the error that tells why a launch file cannot be read, and where."""
     what = f"Caught exception when trying to load file of format [{kind}]:\n"
-    what += f" - {type(error).__name__}: {error}"
+    kind = "TypeError" if isinstance(error, ArgumentNameError) else type(error).__name__
+    what += f" - {kind}: {error}"
     name = os.path.basename(path)
     frames = [
         frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == path
     ]
     where = f"'{name}', line {frames[-1].lineno}: {frames[-1].line}" if frames else f"'{name}'"
     meaning = f"This line cannot be done: {where}" if frames else f"{where} cannot be read."
-    advice = "Correct the launch file; `ros2 launch --print` shows how it is read."
+    advice = "Correct the launch file there; `ros2 launch --debug` shows the whole traceback."
     if isinstance(error, SyntaxError):
-        meaning = f"Python cannot read line {error.lineno} of '{name}': {(error.text or '').strip()}"
+        meaning = (
+            f"Python cannot read line {error.lineno} of '{name}': {(error.text or '').strip()}"
+        )
         advice = "Look there, and in the line before, for a bracket or comma that is missing."
     elif isinstance(error, ModuleNotFoundError):
-        meaning = f"'{name}' imports the Python package '{error.name}', which is not installed here."
+        meaning = (
+            f"'{name}' imports the Python package '{error.name}', which is not installed here."
+        )
         advice = "Install it, or source the workspace that has it; else leave its part out."
-    elif isinstance(error, TypeError) and "unexpected keyword argument" in str(error):
-        advice = "Compare the argument's name letter by letter with the documentation."
+    elif isinstance(error, ArgumentNameError):
+        meaning, advice = f"{error.meaning} {meaning}", error.advice
     return InvalidLaunchFileError(what, meaning, advice)
 
 

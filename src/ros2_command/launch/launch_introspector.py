@@ -58,5 +58,3 @@ def _environment(variables: Mapping[object, SomeSubstitutionsType] | None) -> st
         for name, value in variables.items()
     )
     return "{" + ", ".join(pairs) + "}"
-
-

@@ -33,6 +33,7 @@ from launch.substitution import (
     performed_flag,
 )
 from launch.substitutions import LaunchConfiguration
+from ros2_command.untyped import Untyped
 
 SomeOutput = SomeSubstitutionsType | Mapping[str, str | Iterable[str]]
 _SCREEN, _LOG, _OWN = "screen", "log", "own_log"
@@ -119,7 +120,7 @@ class ExecuteLocal(Action):
         output_format: str = "[{this.process_description.final_name}] {line}",
         cached_output: bool = False, log_cmd: bool = False, on_exit: Handled | None = None,
         respawn: bool | SomeSubstitutionsType = False, respawn_delay: float | None = None,
-        respawn_max_retries: int = -1, **action: Any,
+        respawn_max_retries: int = -1, **action: Untyped,
     ) -> None:  # fmt: skip
         super().__init__(**action)
         self.process_description = process_description
@@ -214,7 +215,7 @@ class ExecuteProcess(ExecuteLocal):
         self, *, cmd: Iterable[SomeSubstitutionsType], prefix: SomeSubstitutionsType | None = None,
         name: SomeSubstitutionsType | None = None, cwd: SomeSubstitutionsType | None = None,
         env: Mapping[Any, SomeSubstitutionsType] | None = None,
-        additional_env: Mapping[Any, SomeSubstitutionsType] | None = None, **local: Any,
+        additional_env: Mapping[Any, SomeSubstitutionsType] | None = None, **local: Untyped,
     ) -> None:  # fmt: skip
         executable = Executable(
             cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
@@ -222,12 +223,12 @@ class ExecuteProcess(ExecuteLocal):
         super().__init__(process_description=executable, **local)
 
     @property
-    def name(self) -> Any:  # noqa: ANN401 - substitutions, or their text
+    def name(self) -> Untyped:
         """Return what the log calls it."""
         return (self.process_details or {}).get("name", self.process_description.name)
 
     @property
-    def cmd(self) -> Any:  # noqa: ANN401 - substitutions, or their texts
+    def cmd(self) -> Untyped:
         """Return its words."""
         return (self.process_details or {}).get("cmd", self.process_description.cmd)
 

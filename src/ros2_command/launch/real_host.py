@@ -139,7 +139,8 @@ class RealHost:
 
     def _work(self) -> None:
         self._woken = False
-        assert self._engine is not None and self._done is not None
+        assert self._engine is not None
+        assert self._done is not None
         self._engine.work()
         if self._engine.finished and not self._done.done():
             self._done.set_result(None)
@@ -157,9 +158,7 @@ class RealHost:
     def _on_sigterm(self, number: int) -> None:
         assert self._engine is not None
         name = signal.Signals(number).name
-        self.log(
-            logging.ERROR, "launch", f"user interrupted with ctrl-\\ ({name}), terminating..."
-        )
+        self.log(logging.ERROR, "launch", f"user interrupted with ctrl-\\ ({name}), terminating...")
         self._engine.return_code = 1
         self._engine.shut_down(name)
 

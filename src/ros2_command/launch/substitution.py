@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import yaml
 
 from launch.errors import SubstitutionFailure
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -93,7 +94,7 @@ def is_substitution(value: object) -> bool:
 Scalar: TypeAlias = bool | int | float | str
 
 
-def from_text(text: str, kind: object = None) -> Any:  # noqa: ANN401 - a Scalar or a list of them
+def from_text(text: str, kind: object = None) -> Untyped:
     """Return the value that a text stands for.
 
     Args:
@@ -107,7 +108,7 @@ def from_text(text: str, kind: object = None) -> Any:  # noqa: ANN401 - a Scalar
     if kind is str:
         return text
     if kind in (int, float):
-        return kind(text)  # type: ignore[operator] # one of these classes
+        return kind(text)
     if kind is bool:
         text = {"1": "true", "0": "false"}.get(text.strip(), text)
     try:
@@ -134,7 +135,7 @@ def is_uniform(values: object) -> bool:
     return kind in (bool, int, float, str) and all(type(value) is kind for value in values)
 
 
-def performed_as(context: LaunchContext, value: Any, kind: object) -> Any:  # noqa: ANN401 - as from_text
+def performed_as(context: LaunchContext, value: Untyped, kind: object) -> Untyped:
     """Return a value, or the one that its substitutions stand for; see `from_text`."""
     if is_substitution(value) or (isinstance(value, str) and kind is not None):
         return from_text(performed(context, value), kind)

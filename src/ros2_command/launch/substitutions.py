@@ -24,6 +24,7 @@ from launch.substitution import (
     performed,
     performed_flag,
 )
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -64,7 +65,7 @@ class LaunchConfiguration(Substitution):
         return performed(context, self._default)
 
 
-def _texts(value: Any) -> list[Substitution]:  # noqa: ANN401 - anything with a text
+def _texts(value: Untyped) -> list[Substitution]:
     parts = value if isinstance(value, list | tuple) else [value]
     return [
         part for item in parts
@@ -138,13 +139,13 @@ class PythonExpression(Substitution):
             names[module.__name__] = module
         text = performed(context, self.expression)
         try:
-            return str(eval(text, {}, names))  # noqa: S307 - it is code, as the launch file is
+            return str(eval(text, {}, names))
         except Exception as error:
             raise SubstitutionFailure(
                 str(error),
                 f"PythonExpression gave Python this expression: {text}",
                 "Put quotes around a text within it, as in PythonExpression(["
-                '"\'", LaunchConfiguration(\'mode\'), "\' == \'fast\'"]).',
+                "\"'\", LaunchConfiguration('mode'), \"' == 'fast'\"]).",
             ) from error
 
 
@@ -162,7 +163,7 @@ class LocalSubstitution(Substitution):
         """Return what it is."""
         names = context.get_locals_as_dict()
         try:
-            return str(eval(f"context.locals.{self.expression}", {}, {"context": context}))  # noqa: S307 - as PythonExpression
+            return str(eval(f"context.locals.{self.expression}", {}, {"context": context}))
         except Exception as error:
             raise SubstitutionFailure(
                 str(error),
@@ -404,7 +405,7 @@ class NotEqualsSubstitution(EqualsSubstitution):
         return _word(not self._are_equal(context))
 
 
-def _comparable(value: Any) -> list[Substitution]:  # noqa: ANN401 - anything with a text
+def _comparable(value: Untyped) -> list[Substitution]:
     if is_substitution(value):
         return normalize_to_list_of_substitutions(value)
     if isinstance(value, bool):

@@ -31,6 +31,7 @@ from launch_ros.descriptions import (
 )
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
+from ros2_command.untyped import Untyped
 
 __all__ = [
     "Node", "PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile",
@@ -74,7 +75,7 @@ class Node(ExecuteProcess):
         parameters: Sequence[Any] | None = None,
         remappings: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]] | None = None,
         ros_arguments: Iterable[SomeSubstitutionsType] | None = None,
-        arguments: Iterable[SomeSubstitutionsType] | None = None, **process: Any,
+        arguments: Iterable[SomeSubstitutionsType] | None = None, **process: Untyped,
     ) -> None:  # fmt: skip
         program = (
             executable if package is None
@@ -207,15 +208,13 @@ class Node(ExecuteProcess):
             )  # fmt: skip
 
 
-def _words(
-    name: str, given: Iterable[SomeSubstitutionsType] | None
-) -> list[SomeSubstitutionsType]:
+def _words(name: str, given: Iterable[SomeSubstitutionsType] | None) -> list[SomeSubstitutionsType]:
     if isinstance(given, str | Substitution):
         raise TypeError(f"Node expected '{name}' to be a list, but got '{type(given)}'")
     return list(given or ())
 
 
-def _pair(rule: Any) -> tuple[SomeSubstitutionsType, SomeSubstitutionsType]:  # noqa: ANN401 - checked here
+def _pair(rule: Untyped) -> tuple[SomeSubstitutionsType, SomeSubstitutionsType]:
     if not isinstance(rule, tuple) or len(rule) != 2:
         raise TypeError(f"each of 'remappings' must be a pair, ('from', 'to'), but got {rule!r}")
     return rule
@@ -254,7 +253,7 @@ def _keys(content: object) -> set[object]:
 class PushROSNamespace(Action):
     """Put a namespace before those of the nodes that follow, in this group."""
 
-    def __init__(self, namespace: SomeSubstitutionsType, **action: Any) -> None:
+    def __init__(self, namespace: SomeSubstitutionsType, **action: Untyped) -> None:
         super().__init__(**action)
         self.namespace = normalize_to_list_of_substitutions(namespace)
 
@@ -280,7 +279,7 @@ PushRosNamespace = PushROSNamespace
 class SetParameter(Action):
     """Give all nodes that follow a parameter, in this group."""
 
-    def __init__(self, name: SomeSubstitutionsType, value: Any, **action: Any) -> None:  # noqa: ANN401
+    def __init__(self, name: SomeSubstitutionsType, value: Untyped, **action: Untyped) -> None:
         super().__init__(**action)
         self.name, self.value = normalize_to_list_of_substitutions(name), value
 
@@ -293,7 +292,7 @@ class SetParameter(Action):
 class SetParametersFromFile(Action):
     """Give all nodes that follow the parameters of a file, in this group."""
 
-    def __init__(self, filename: SomeSubstitutionsType, **action: Any) -> None:
+    def __init__(self, filename: SomeSubstitutionsType, **action: Untyped) -> None:
         super().__init__(**action)
         self.filename = normalize_to_list_of_substitutions(filename)
 
@@ -306,7 +305,7 @@ class SetRemap(Action):
     """Give all nodes that follow a remapping, in this group."""
 
     def __init__(
-        self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **action: Any
+        self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **action: Untyped
     ) -> None:
         super().__init__(**action)
         self.src = normalize_to_list_of_substitutions(src)
@@ -321,7 +320,7 @@ class SetRemap(Action):
 class SetROSLogDir(Action):
     """Let the nodes that follow keep their log files in a folder."""
 
-    def __init__(self, new_log_dir: SomeSubstitutionsType, **action: Any) -> None:
+    def __init__(self, new_log_dir: SomeSubstitutionsType, **action: Untyped) -> None:
         super().__init__(**action)
         self.log_dir = normalize_to_list_of_substitutions(new_log_dir)
 

@@ -21,6 +21,7 @@ from launch.substitution import (
     performed_as,
     performed_flag,
 )
+from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -38,10 +39,10 @@ class ParameterValue:
         value_type: Its kind, such as `str` or `List[int]`; without it as YAML reads it.
     """
 
-    def __init__(self, value: Any, *, value_type: object = None) -> None:  # noqa: ANN401 - checked later
+    def __init__(self, value: Untyped, *, value_type: object = None) -> None:
         self.value, self.value_type = value, value_type
 
-    def evaluate(self, context: LaunchContext) -> Any:  # noqa: ANN401 - of that kind
+    def evaluate(self, context: LaunchContext) -> Untyped:
         """Return the value."""
         if isinstance(self.value, str) and not self.value_type:
             return self.value
@@ -65,7 +66,11 @@ class Parameter(ParameterValue):
     """
 
     def __init__(
-        self, name: SomeSubstitutionsType, value: Any, *, value_type: object = None  # noqa: ANN401
+        self,
+        name: SomeSubstitutionsType,
+        value: Untyped,
+        *,
+        value_type: object = None,
     ) -> None:
         super().__init__(value, value_type=value_type)
         self.name = name
@@ -134,7 +139,7 @@ def parameter_values(
             yield name, _value_of(context, name, value)
 
 
-def _value_of(context: LaunchContext, name: str, value: Any) -> Any:  # noqa: ANN401 - as YAML has it
+def _value_of(context: LaunchContext, name: str, value: Untyped) -> Untyped:
     if isinstance(value, ParameterValue):
         return plain(value.evaluate(context))
     if isinstance(value, bool | int | float | str | bytes):
@@ -143,9 +148,7 @@ def _value_of(context: LaunchContext, name: str, value: Any) -> Any:  # noqa: AN
         return _as_yaml(name, performed(context, value))
     if not isinstance(value, list | tuple):
         raise _no_value(name, value)
-    items = [
-        _as_yaml(name, performed(context, item)) if _is_open(item) else item for item in value
-    ]
+    items = [_as_yaml(name, performed(context, item)) if _is_open(item) else item for item in value]
     if all(isinstance(item, int | float) and not isinstance(item, bool) for item in items):
         kind = int if all(isinstance(item, int) for item in items) else float
         items = [kind(item) for item in items]
@@ -159,7 +162,7 @@ def _is_open(item: object) -> bool:
     return isinstance(item, list | tuple | Substitution)
 
 
-def _as_yaml(name: str, text: str) -> Any:  # noqa: ANN401 - as YAML has it
+def _as_yaml(name: str, text: str) -> Untyped:
     try:
         return from_text(text)
     except ValueError:

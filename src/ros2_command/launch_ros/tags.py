@@ -24,6 +24,7 @@ from launch_ros.substitutions import (
     FindPackagePrefix,
     FindPackageShare,
 )
+from ros2_command.untyped import Untyped
 
 substitution("find-pkg-share", 1, FindPackageShare)
 substitution("find-pkg-prefix", 1, FindPackagePrefix)
@@ -53,7 +54,34 @@ def _node(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
     )  # fmt: skip
 
 
-def _parameter(entity: Entity) -> Any:  # noqa: ANN401 - a dictionary or a file
+@tag("push_ros_namespace", "push-ros-namespace")
+def _push_namespace(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
+    return actions.PushROSNamespace(entity.parts("namespace", required=True) or "", **given)
+
+
+@tag("set_parameter")
+def _set_parameter(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
+    name, value = entity.parts("name", required=True), entity.parts("value", required=True)
+    return actions.SetParameter(name or "", value, **given)
+
+
+@tag("set_parameters_from_file")
+def _set_parameters(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
+    return actions.SetParametersFromFile(entity.parts("filename", required=True) or "", **given)
+
+
+@tag("set_remap")
+def _set_remap(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
+    before, after = entity.parts("from", required=True), entity.parts("to", required=True)
+    return actions.SetRemap(before or "", after or "", **given)
+
+
+@tag("set_ros_log_dir")
+def _set_log_folder(entity: Entity, given: dict[str, Any]) -> LaunchDescriptionEntity:
+    return actions.SetROSLogDir(entity.parts("new_log_dir", required=True) or "", **given)
+
+
+def _parameter(entity: Entity) -> Untyped:
     file, name = entity.parts("from"), entity.text("name")
     if (file is None) == (name is None):
         raise FrontendError(
@@ -97,7 +125,7 @@ def _named(entity: Entity) -> dict[Any, Any]:
     return {name: ParameterValue(_item(entity, value, kind), value_type=kind)}
 
 
-def _item(entity: Entity, value: Any, kind: object = None) -> Any:  # noqa: ANN401 - as YAML has it
+def _item(entity: Entity, value: Untyped, kind: object = None) -> Untyped:
     """Return a value, or its substitutions; in XML a text stands for what YAML reads in it."""
     if not isinstance(value, str):
         return value

@@ -49,10 +49,8 @@ def _check_launch() -> None:
     if not hasattr(launch, "LaunchError"):
         raise CommandError(
             f"Python finds another `launch` first, in {os.path.dirname(str(launch.__file__))}",
-            "# PYTHONPATH, or another package that is installed, puts it before the one of this "
-            "command.",
-            "# In a terminal with a full ROS 2, use the `ros2` of that; else take its folder out of "
-            "PYTHONPATH.",
+            "# PYTHONPATH, or another package that is installed, puts it in front of the one meant.",
+            "# With a full ROS 2, use the `ros2` of that; else take the folder out of PYTHONPATH.",
         )
 
 
