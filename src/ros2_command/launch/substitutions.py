@@ -252,7 +252,12 @@ class FileContent(Substitution):
         try:
             return Path(path).read_text(encoding="utf-8")
         except OSError as error:
-            raise SubstitutionFailure(f"cannot read '{path}': {error.strerror}") from error
+            raise SubstitutionFailure(
+                f"File not found: {path}",
+                f"The launch file wants the text of this file: {error.strerror}.",
+                "Compare the path; a package has its files in its share folder only after "
+                "`data_files` in setup.py names them, and the next `colcon build`.",
+            ) from error
 
 
 class AnonName(Substitution):

@@ -49,7 +49,7 @@ def _check_launch() -> None:
     if not hasattr(launch, "LaunchError"):
         raise CommandError(
             f"Python finds another `launch` first, in {os.path.dirname(str(launch.__file__))}",
-            "# PYTHONPATH, or another package that is installed, puts it in front of the one meant.",
+            "# PYTHONPATH, or another installed package, puts it in front of the one meant.",
             "# With a full ROS 2, use the `ros2` of that; else take the folder out of PYTHONPATH.",
         )
 
