@@ -331,14 +331,13 @@ class IncludeLaunchDescription(Action):
         above: tuple[str, ...] = known.get("including_launch_files", ())
         description = self.launch_description_source.get_launch_description(context)
         path = os.path.abspath(self.launch_description_source.location)
-        if above.count(path) > 1 and len(above) > _DEEPEST:
+        if len(above) > _DEEPEST and path in above:
+            again = next(place for place, file in enumerate(above) if file in above[:place])
+            circle = above[above.index(above[again]) : again + 1]
             raise LaunchError(
                 "maximum recursion depth exceeded: launch files include each other without end",
                 "The files include each other in this order: "
-                + " -> ".join(
-                    os.path.basename(file) for file in above[-above[::-1].index(path) - 1 :]
-                )
-                + f" -> {os.path.basename(path)}",
+                + " -> ".join(map(os.path.basename, circle)),
                 "Take one of these includes away, or give it a condition.",
             )
         names = [performed(context, name) for name, _ in self.launch_arguments]

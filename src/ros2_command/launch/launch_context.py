@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
+import tempfile
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, MutableMapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from weakref import finalize
 
 from launch.host import Host, SilentHost
 from launch.substitution import Substitution
@@ -60,6 +64,9 @@ class LaunchContext:
         #: Actions that have begun and not ended, each with what to call at its end.
         self.running: dict[object, list[Callable[[], None]]] = {}
         self._process_count = 0
+        self._folder: Path | None = None
+        #: Removes the files that `write_file` has written; the launch calls it at its end.
+        self.remove_files: Callable[[], object] = lambda: None
 
     # Locals.
 
@@ -158,6 +165,15 @@ class LaunchContext:
         """Return the number behind the name of the next process, from 1."""
         self._process_count += 1
         return self._process_count
+
+    def write_file(self, text: str) -> Path:
+        """Write a file that is there as long as the launch, and return its path."""
+        if self._folder is None:
+            self._folder = Path(tempfile.mkdtemp(prefix="launch_params_"))
+            self.remove_files = finalize(self, shutil.rmtree, self._folder, True)
+        path = self._folder / f"{len(list(self._folder.iterdir())) + 1}.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
 
     def perform_substitution(self, substitution: Substitution) -> str:
         """Return the text that a substitution stands for."""

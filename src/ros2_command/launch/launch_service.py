@@ -52,6 +52,7 @@ class Engine:
                     return
                 elif context.is_shutdown:
                     self.finished = True
+                    context.remove_files()
                 elif self._shutdown_when_idle:
                     self.shut_down("idle")
                 else:

@@ -27,7 +27,6 @@ from launch_ros.descriptions import (
     Parameter,
     ParameterFile,
     parameter_values,
-    write_temporary,
 )
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
@@ -173,7 +172,7 @@ class Node(ExecuteProcess):
             if isinstance(given, Mapping):
                 values = dict(parameter_values(context, given))
                 text = yaml.dump({section: {"ros__parameters": values}}, default_flow_style=False)
-                words += ["--params-file", str(write_temporary(text))]
+                words += ["--params-file", str(context.write_file(text))]
             elif isinstance(given, Parameter):
                 words += ["-p", given.rule(context)]
             else:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -106,16 +105,7 @@ class ParameterFile:
         if not performed_flag(context, self.allow_substs) or not path.is_file():
             return path
         text = performed(context, parse_substitution(path.read_text(encoding="utf-8")))
-        return write_temporary(text)
-
-
-def write_temporary(text: str) -> Path:
-    """Write a file of parameters for one launch, and return its path."""
-    with tempfile.NamedTemporaryFile(
-        "w", prefix="launch_params_", delete=False, encoding="utf-8"
-    ) as file:
-        file.write(text)
-    return Path(file.name)
+        return context.write_file(text)
 
 
 def plain(value: object) -> object:

@@ -1,4 +1,5 @@
 import pytest
+
 from ros2_command.verbs.completion import candidates
 from ros2_command.verbs.doctor import Finding, report, summarize
 

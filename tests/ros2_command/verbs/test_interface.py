@@ -1,4 +1,5 @@
 import pytest
+
 from ros2_command.packages import nested_type
 
 TEMPERATURE = """\

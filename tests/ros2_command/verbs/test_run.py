@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from ros2_command.verbs.run import startable
 
 NODE = f"""#!{sys.executable}

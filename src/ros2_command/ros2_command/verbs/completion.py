@@ -107,6 +107,10 @@ def _values(argument: str, given: Sequence[str]) -> list[str]:
     if argument in _TYPES:
         kind = _TYPES[argument]
         return [one.name for one in packages.all_interfaces() if kind in (None, one.kind)]
+    if argument in ("launch_file_name", "launch_arguments"):
+        from ros2_command.verbs.launch import words_after
+
+        return words_after(given)
     if argument in ("parameter_name", "parameter_names"):
         return _parameters(given[0])
     return _from_graph(argument)

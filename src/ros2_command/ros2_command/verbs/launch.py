@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import sys
 from argparse import Namespace
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2_command.errors import CommandError
 from ros2_command.names import did_you_mean
-from ros2_command.packages import SOURCE_FIRST, all_packages, prefixes
+from ros2_command.packages import SOURCE_FIRST, all_packages, package_prefix, prefixes
 from ros2_command.registry import Argument, Verb, argument, flag, one_of
 
 if TYPE_CHECKING:
@@ -196,24 +197,20 @@ def _launch(path: str, arguments: dict[str, str], args: Namespace) -> int:
     return service.run()
 
 
-def launch_files_of(package: str) -> list[str]:
-    """Return the names of the launch files that a package has installed."""
-    prefix = all_packages().get(package)
-    if prefix is None:
-        return []
-    found = (prefix / "share" / package).rglob("*")
-    return sorted({path.name for path in found if path.name.endswith(ENDINGS)})
+def words_after(given: Sequence[str]) -> list[str]:
+    """Return what may stand behind a package, or behind a launch file: `name:=` of its arguments.
 
-
-def arguments_of(package_or_path: str, file: str | None) -> list[str]:
-    """Return the arguments that a launch file takes, each with `:=` behind it."""
-    if os.path.isfile(package_or_path):
-        path = package_or_path
-    elif file is not None:
-        path = str(find_launch_file(package_or_path, file))
+    Args:
+        given: The package and the file, or the path, and perhaps arguments.
+    """
+    if os.path.isfile(given[0]):
+        path = given[0]
+    elif len(given) > 1:
+        path = str(find_launch_file(given[0], given[1]))
     else:
-        return []
-    return [f"{given.name}{_SET}" for given in _description(path).get_launch_arguments()]
+        share = package_prefix(given[0]) / "share" / given[0]
+        return [path.name for path in share.rglob("*") if path.name.endswith(ENDINGS)]
+    return [f"{declared.name}{_SET}" for declared in _description(path).get_launch_arguments()]
 
 
 def _interactive() -> bool:
