@@ -270,7 +270,11 @@ class _Run:
                 f"process details: cmd='{' '.join(self._order.words)}', cwd='{self._order.folder}'"
                 ", custom_env?=True",
             )
-        self._context.host.start(self._order, self)
+        try:
+            self._context.host.start(self._order, self)
+        except LaunchError:  # the host has no such processes
+            self._end()
+            raise
 
     # What the host tells.
 
