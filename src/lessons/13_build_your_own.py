@@ -617,10 +617,10 @@ def generate_launch_description():
 # ls install/greenhouse/share/greenhouse/launch
 
 # %% [markdown]
-# The programs and the launch file are installed. On a robot, `ros2 launch greenhouse greenhouse.launch.py` would now
-# start the whole system. `ros2 launch` comes with a full ROS 2 installation; it isn't available on PyPI, so this course
-# doesn't have it. Without it, you start each program in a terminal of its own. The launch file's options become options
-# of the command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
+# The programs and the launch file are installed. In one terminal, `ros2 launch greenhouse greenhouse.launch.py` now
+# starts the whole system, and `Ctrl` + `C` ends it. To watch one program at a time, you start each in a terminal of its
+# own. The launch file's options become options of the command, after `--ros-args`: `-p` sets a parameter, and `-r`
+# remaps a topic.
 
 # %% terminal="vent --until ready" only="notebook"
 # cd "$ROS2_WORKSPACE"
