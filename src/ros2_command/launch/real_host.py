@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, TextIO
 
 from launch.host import Order, Watcher
 from launch.logging import launch_config, logging_to
+from ros2_command.verbs.run import GroupWatch
 
 if TYPE_CHECKING:
     from launch.launch_service import Engine
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 #: Seconds to go on reading what an ended process has printed; a child of it may hold the pipe.
 _REST = 0.2
 _CHUNK = 65536
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGHUP)
 
 
 class RealHost:
@@ -40,6 +42,7 @@ class RealHost:
         self._engine: Engine | None = None
         self._done: asyncio.Future[None] | None = None
         self._woken = self._interrupted = self._deaf = False
+        self._watch: GroupWatch | None = None
         self._processes: set[_RealProcess] = set()
         self._tasks: set[asyncio.Task[None]] = set()
         self._files: dict[str, TextIO] = {}
@@ -111,13 +114,20 @@ class RealHost:
 
     def run(self, engine: Engine) -> int:
         """Run a launch to its end, and return its exit code."""
+        # The watch blocks these signals for good, and this process until it can answer them.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+        with GroupWatch() as self._watch:
+            for number in _SIGNALS:
+                handle = self._on_sigint if number == signal.SIGINT else self._on_sigterm
+                self._loop.add_signal_handler(number, handle, number)
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+            return self._run(engine)
+
+    def _run(self, engine: Engine) -> int:
         self._engine = engine
         loop = self._loop
         asyncio.set_event_loop(loop)
         self._done = loop.create_future()
-        loop.add_signal_handler(signal.SIGINT, self._on_sigint)
-        for number in (signal.SIGTERM, signal.SIGQUIT, signal.SIGHUP):
-            loop.add_signal_handler(number, self._on_sigterm, number)
         try:
             with logging_to(self):
                 self.log(
@@ -145,7 +155,7 @@ class RealHost:
         if self._engine.finished and not self._done.done():
             self._done.set_result(None)
 
-    def _on_sigint(self) -> None:
+    def _on_sigint(self, number: int) -> None:
         assert self._engine is not None
         text = "user interrupted with ctrl-c (SIGINT)"
         if self._interrupted:
@@ -153,6 +163,8 @@ class RealHost:
             return
         self._interrupted = True
         self.log(logging.WARNING, "launch", text)
+        if self._engine.context.noninteractive and self._reached_group(number):
+            self._engine.context.noninteractive = False
         self._engine.shut_down("ctrl-c (SIGINT)", due_to_sigint=True)
 
     def _on_sigterm(self, number: int) -> None:
@@ -160,7 +172,16 @@ class RealHost:
         name = signal.Signals(number).name
         self.log(logging.ERROR, "launch", f"user interrupted with ctrl-\\ ({name}), terminating...")
         self._engine.return_code = 1
-        self._engine.shut_down(name)
+        reached = self._reached_group(number)
+        self._engine.context.noninteractive &= not reached
+        self._engine.shut_down(name, due_to_sigint=reached)
+
+    def _reached_group(self, number: int) -> bool:
+        """Return whether the processes have got the signal as well, as from `timeout`.
+
+        A second one would break the good end of a node that has begun to end.
+        """
+        return self._watch is not None and self._watch.has_seen(number)
 
     # Processes.
 

@@ -381,6 +381,21 @@ def test_ctrl_c_ends_all(ros2, demo):
     assert shown[-1].startswith("[ERROR] [wait-1]: process has died [pid N, exit code 4, cmd '")
 
 
+def test_a_signal_for_the_group_reaches_a_node_once(ros2, demo):
+    demo.program(
+        "count",
+        """#!/bin/sh
+trap 'echo interrupted; left=20' INT
+echo waiting
+while [ "${left:=-1}" != 0 ]; do sleep 0.01; [ "$left" -lt 0 ] || left=$((left - 1)); done
+""",
+    )
+    demo.file('Node(package="demo", executable="count", output="screen"),')
+    code, shown, _ = ended_by(ros2, demo, signal.SIGINT, signal_group=True)
+    assert code == 0
+    assert outputs(shown, "count-1") == ["waiting", "interrupted"]
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_other_signals_leave_nothing_running(ros2, demo, number):
     demo.file('Node(package="demo", executable="wait", output="screen"),')

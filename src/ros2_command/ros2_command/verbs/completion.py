@@ -110,7 +110,7 @@ def _values(argument: str, given: Sequence[str]) -> list[str]:
     if argument in ("launch_file_name", "launch_arguments"):
         from ros2_command.verbs.launch import words_after
 
-        return words_after(given)
+        return words_after(given[0], given[1] if len(given) > 1 else None)
     if argument in ("parameter_name", "parameter_names"):
         return _parameters(given[0])
     return _from_graph(argument)

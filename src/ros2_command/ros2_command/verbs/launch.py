@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,10 +24,10 @@ _SET = ":="
 def _main(args: Namespace) -> int:
     path, words = _chosen(args)
     if args.launch_prefix is None and args.launch_prefix_filter is not None:
-        raise CommandError(
+        raise _error(
             "--launch-prefix must be specified if --launch-prefix-filter is provided",
-            "# The filter says which programs get the prefix, and there is none.",
-            "# Add --launch-prefix with the command that should go before the programs.",
+            "The filter says which programs get the prefix, and there is none.",
+            "Add --launch-prefix with the command that should go before the programs.",
         )
     arguments = _arguments(words)
     if args.show_all_subprocesses_output:
@@ -48,10 +47,10 @@ def _check_launch() -> None:
     import launch
 
     if not hasattr(launch, "LaunchError"):
-        raise CommandError(
+        raise _error(
             f"Python finds another `launch` first, in {os.path.dirname(str(launch.__file__))}",
-            "# PYTHONPATH, or another installed package, puts it in front of the one meant.",
-            "# With a full ROS 2, use the `ros2` of that; else take the folder out of PYTHONPATH.",
+            "PYTHONPATH, or another installed package, puts it in front of the one meant.",
+            "With a full ROS 2, use the `ros2` of that; else take the folder out of PYTHONPATH.",
         )
 
 
@@ -73,17 +72,17 @@ def find_launch_file(package: str, name: str | None) -> Path:
     """
     packages = all_packages()
     if package not in packages:
-        raise CommandError(*_no_package(package, list(packages)))
+        raise _error(*_no_package(package, list(packages)))
     share = packages[package] / "share" / package
     files = sorted(path for path in share.rglob("*") if path.is_file())
     found = [path for path in files if path.name == name]
     if len(found) > 1:
         listed = ", ".join(f"'{path}'" for path in found)
-        raise CommandError(
+        raise _error(
             f"file '{name}' was found more than once in the share directory of package "
             f"'{package}': [{listed}]",
-            "# `ros2 launch` cannot know which of them is meant.",
-            f"# Type the path of one of them:  ros2 launch {found[0]}",
+            "`ros2 launch` cannot know which of them is meant.",
+            f"Type the path of one of them:  ros2 launch {found[0]}",
         )
     if found:
         return found[0]
@@ -97,16 +96,16 @@ def find_launch_file(package: str, name: str | None) -> Path:
         f"('share/{package}/launch', ['launch/{name or 'system.launch.py'}']), and `colcon build`."
     )
     if name is None:
-        raise CommandError(
+        raise _error(
             f"No launch file of package '{package}' was named",
-            f"# {listed}",
-            f"# Type:  ros2 launch {package} {names[0]}" if names else f"# {advice}",
+            f"{listed}",
+            f"Type:  ros2 launch {package} {names[0]}" if names else f"{advice}",
         )
-    raise CommandError(
+    raise _error(
         f"file '{name}' was not found in the share directory of package '{package}' which is at "
         f"'{share}'",
-        f"# {listed}",
-        f"# {did_you_mean(name, names, advice)}",
+        f"{listed}",
+        f"{did_you_mean(name, names, advice)}",
     )
 
 
@@ -116,13 +115,13 @@ def _no_package(name: str, packages: list[str]) -> list[str]:
     if name.endswith(ENDINGS) or os.sep in name:
         return [
             first,
-            f"# '{name}' looks like the path of a launch file, and there is no such file here.",
-            "# Compare the path with the output of `ls`.",
+            f"'{name}' looks like the path of a launch file, and there is no such file here.",
+            "Compare the path with the output of `ls`.",
         ]
     return [
         first,
-        "# Neither a package nor a file has this name.",
-        f"# {did_you_mean(name, packages, SOURCE_FIRST)}",
+        "Neither a package nor a file has this name.",
+        f"{did_you_mean(name, packages, SOURCE_FIRST)}",
     ]
 
 
@@ -132,10 +131,10 @@ def _arguments(words: list[str]) -> dict[str, str]:
     for word in words:
         name, sign, value = word.partition(_SET)
         if not sign or not name or not (value or word.count(_SET) > 1):
-            raise CommandError(
+            raise _error(
                 f"malformed launch argument '{word}', expected format '<name>:=<value>'",
-                "# What stands behind the launch file gives its arguments their values.",
-                f"# {_correction(word)}",
+                "What stands behind the launch file gives its arguments their values.",
+                f"{_correction(word)}",
             )
         values[name] = value
     return values
@@ -156,7 +155,7 @@ def _description(path: str) -> LaunchDescription:
     try:
         return get_launch_description_from_any_launch_file(path)
     except LaunchError as error:
-        raise CommandError(str(error), *(f"# {line}" for line in explained(error))) from None
+        raise _error(str(error), *explained(error)) from None
 
 
 def _show(path: str, only_arguments: bool) -> None:
@@ -197,20 +196,26 @@ def _launch(path: str, arguments: dict[str, str], args: Namespace) -> int:
     return service.run()
 
 
-def words_after(given: Sequence[str]) -> list[str]:
+def words_after(package: str, file: str | None) -> list[str]:
     """Return what may stand behind a package, or behind a launch file: `name:=` of its arguments.
 
     Args:
-        given: The package and the file, or the path, and perhaps arguments.
+        package: The package, or the path of a launch file.
+        file: The launch file, if it is typed already.
     """
-    if os.path.isfile(given[0]):
-        path = given[0]
-    elif len(given) > 1:
-        path = str(find_launch_file(given[0], given[1]))
+    if os.path.isfile(package):
+        path = package
+    elif file is not None:
+        path = str(find_launch_file(package, file))
     else:
-        share = package_prefix(given[0]) / "share" / given[0]
+        share = package_prefix(package) / "share" / package
         return [path.name for path in share.rglob("*") if path.name.endswith(ENDINGS)]
     return [f"{declared.name}{_SET}" for declared in _description(path).get_launch_arguments()]
+
+
+def _error(message: str, *notes: str) -> CommandError:
+    """Return an error with what the original says, and notes on what it means and what to try."""
+    return CommandError(message, *(f"# {note}" for note in notes))
 
 
 def _interactive() -> bool:
