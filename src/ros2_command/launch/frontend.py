@@ -155,30 +155,32 @@ class Entity:
         )
 
 
-def read(path: str, *, is_yaml: bool) -> LaunchDescription:
+def read(path: str, kind: str) -> LaunchDescription:
     """Read a launch file in XML or YAML.
+
+    Args:
+        path: The file.
+        kind: The end of its name, without the dot. A file `x.launch` may be either.
 
     Raises:
         InvalidLaunchFileError: If it cannot be read.
     """
-    kind = path.rpartition(".")[2]
+    text = Path(path).read_text(encoding="utf-8")
+    is_yaml = kind in ("yaml", "yml") or (kind != "xml" and not text.lstrip().startswith("<"))
     before = _KIND[0]
     _KIND[0] = f"Caught exception when trying to load file of format [{kind}]:\n - "
     try:
-        root = (_from_yaml if is_yaml else _from_xml)(Path(path).read_text(encoding="utf-8"))
+        root = (_from_yaml if is_yaml else _from_xml)(text)
         if root.tag != "launch":
             raise FrontendError(
                 "RuntimeError: Expected 'launch' as root tag",
                 f"The file begins with `{root.tag}`.",
                 "Put all of it into `launch:`." if is_yaml else "Put all of it into <launch>.",
             )
-        reason = root.text("deprecated")
-        root.text("version")  # a habit of ROS 1, and of many examples
-        description = LaunchDescription(root.actions(), deprecated_reason=reason)
-        root.check()
+        # Other attributes mean nothing: many files have a `version`.
+        return LaunchDescription(root.actions(), deprecated_reason=root.text("deprecated"))
     finally:
         _KIND[0] = before
-    return description
 
 
 def _from_xml(text: str) -> Entity:

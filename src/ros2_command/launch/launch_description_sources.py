@@ -32,8 +32,8 @@ __all__ = [
     "get_launch_description_from_python_launch_file",
 ]  # fmt: skip
 
-#: How the names of launch files end.
-PYTHON, XML, YAML = (".py",), (".xml", ".launch"), (".yaml", ".yml")
+#: How the name of a launch file in Python ends.
+PYTHON = ".py"
 
 
 class LaunchDescriptionSource:
@@ -120,11 +120,6 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
         return get_launch_description_from_frontend_launch_file(path)
 
 
-def is_launch_file(path: str) -> bool:
-    """Return whether a name is one of a launch file."""
-    return path.endswith(("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch"))
-
-
 def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
     """Read a launch file in Python, XML or YAML; the end of its name says which.
 
@@ -200,7 +195,7 @@ def get_launch_description_from_frontend_launch_file(
     _check_file(path)
     kind = os.path.splitext(path)[1][1:]
     try:
-        return frontend.read(path, is_yaml=path.endswith(YAML))
+        return frontend.read(path, kind)
     except LaunchError:
         raise
     except Exception as error:

@@ -272,6 +272,13 @@ launch:
     assert sorted(found[0]) == sorted(found[1]) == sorted(found[2])
 
 
+@pytest.mark.parametrize(
+    "text", ['<launch><log message="x"/></launch>', "launch: [log: {message: x}]"]
+)
+def test_a_name_may_leave_the_form_open(ros2, demo, text):
+    assert lines(ros2.out("launch", demo.file(text, "x.launch"))) == ["[INFO] [launch.user]: x"]
+
+
 def test_xml_has_the_other_tags(ros2, demo):
     path = demo.file("""\
 <launch>
