@@ -188,7 +188,7 @@ class RealHost:
     async def _run_process(self, order: Order, watcher: Watcher) -> None:
         ends = [_Stream.open(order.with_terminal) for _ in range(2)]
         try:
-            process = await self._spawn(order, ends)
+            transport, protocol = await self._spawn(order, ends)
         except OSError as error:
             for stream in ends:
                 stream.close()
@@ -197,42 +197,58 @@ class RealHost:
         finally:
             for stream in ends:
                 os.close(stream.writing)
-        running = _RealProcess(process)
+        running = _RealProcess(transport)
         self._processes.add(running)
         watcher.started(running)
         for fd, stream in enumerate(ends, 1):
             stream.read_into(self._loop, lambda data, fd=fd: watcher.printed(fd, data))  # type: ignore[misc]
-        returncode = await process.wait()
+        returncode = await protocol.returncode
         await asyncio.wait([stream.ended for stream in ends], timeout=_REST)
         for stream in ends:
             stream.close()
+        transport.close()
         self._processes.discard(running)
         watcher.ended(returncode)
 
-    async def _spawn(self, order: Order, ends: list[_Stream]) -> asyncio.subprocess.Process:
-        # Flushed, so that what the launch has printed comes first.
-        sys.stdout.flush()
+    async def _spawn(
+        self, order: Order, ends: list[_Stream]
+    ) -> tuple[asyncio.SubprocessTransport, _Protocol]:
         out, err = (stream.writing for stream in ends)
-        if order.in_shell:
-            return await asyncio.create_subprocess_shell(
-                " ".join(order.words), stdin=asyncio.subprocess.PIPE, stdout=out, stderr=err,
-                cwd=order.folder, env=order.environment,
-            )  # fmt: skip
-        return await asyncio.create_subprocess_exec(
-            *order.words, stdin=asyncio.subprocess.PIPE, stdout=out, stderr=err,
+        begin = self._loop.subprocess_shell if order.in_shell else self._loop.subprocess_exec
+        words = [" ".join(order.words)] if order.in_shell else order.words
+        return await begin(
+            _Protocol, *words, stdin=asyncio.subprocess.PIPE, stdout=out, stderr=err,
             cwd=order.folder, env=order.environment,
         )  # fmt: skip
 
 
+class _Protocol(asyncio.SubprocessProtocol):
+    """Hear the end of a process; `Process.wait` also waits for children that hold its input."""
+
+    def __init__(self) -> None:
+        self.returncode: asyncio.Future[int] = asyncio.get_running_loop().create_future()
+        self._transport: asyncio.SubprocessTransport | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.SubprocessTransport)
+        self._transport = transport
+
+    def process_exited(self) -> None:
+        assert self._transport is not None
+        code = self._transport.get_returncode()
+        assert code is not None
+        self.returncode.set_result(code)
+
+
 class _RealProcess:
-    def __init__(self, process: asyncio.subprocess.Process) -> None:
-        self._process = process
-        self.pid = process.pid
+    def __init__(self, transport: asyncio.SubprocessTransport) -> None:
+        self._transport = transport
+        self.pid = transport.get_pid()
 
     def send_signal(self, number: int) -> None:
         """Send it a signal; one that has ended gets none."""
         with suppress(ProcessLookupError):
-            self._process.send_signal(number)
+            self._transport.send_signal(number)
 
 
 class _Stream:
