@@ -227,6 +227,7 @@ REFUSED = {
     'Node(package="demo", executable="lost"),': "wants the module `demo.lost`",
     'Node(package="demo", executable="tlaker"),': "executable 'tlaker' not found",
     'LogInfo(msg=LaunchConfiguration("nope")),': "launch configuration 'nope' does not exist",
+    'Node(package="demo", executable="die", respawn=True),': "was started 100 times at one instant",
     "1 / 0,": "ZeroDivisionError: division by zero",
 }
 

@@ -242,7 +242,7 @@ class _Run:
         self._respawn = performed_flag(context, action.respawn)
         self._process: RunningProcess | None = None
         self._retries = 0
-        self._must_end = False
+        self._must_end = self._is_waiting = False
         self._sigint_is_due = False
         self._cancels: list[Callable[[], None]] = []
         action.process_description.final_name = order.name  # type: ignore[attr-defined]
@@ -321,8 +321,14 @@ class _Run:
             self._end()
             return
         self._retries += 1
+        self._is_waiting = True
         delay = self._action.respawn_delay or 0.0
-        self._cancels.append(self._context.host.call_later(delay, self.start))
+        self._cancels.append(self._context.host.call_later(delay, self._start_again))
+
+    def _start_again(self) -> None:
+        self._is_waiting = False
+        self._context.later.append(self.start)
+        self._context.host.wake()
 
     def failed(self, error: OSError) -> None:
         """Say that the process could not be started."""
@@ -383,7 +389,7 @@ class _Run:
         self._must_end, self._sigint_is_due = True, send_sigint
         if self._process is not None:
             self._shut_down(send_sigint)
-        elif self._cancels:  # it waits to be started again
+        elif self._is_waiting:  # to be started again
             self._end()
 
     def _shut_down(self, send_sigint: bool) -> None:

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 _PREFIXES = "AMENT_PREFIX_PATH"
 #: What colcon leaves in a folder of installed packages.
 _INSTALLED = ".colcon_install_layout"
+#: How often a node may be started at one instant.
+_MOST_STARTS = 100
 _ROS_LEVELS = {"WARNING": "WARN", "CRITICAL": "FATAL"}
 
 
@@ -274,6 +276,7 @@ class _SessionHost:
         self._launch, self._on_start = launch, on_start
         self._alarms: list[tuple[int, int, list[Callable[[], None]]]] = []
         self._numbers, self._pids = count(), count(1)
+        self._starts: dict[str, tuple[int, int]] = {}  # when last, and how often then
 
     def wake(self) -> None:
         """Let the launch look soon at what there is to do."""
@@ -302,6 +305,7 @@ class _SessionHost:
 
     def start(self, order: Order, watcher: Watcher) -> None:
         """Start a node as a simulated program, and tell the watcher what becomes of it."""
+        self._check_chain(order)
         target, entry = _program_of(order)
         program = LaunchedNode(self._launch.core, target, entry, order.words[1:], order.environment)
         program.name = Path(order.words[0]).name
@@ -310,6 +314,20 @@ class _SessionHost:
         self._on_start(program)
         program.begin()
         watcher.started(_Running(program, next(self._pids)))
+
+    def _check_chain(self, order: Order) -> None:
+        """Refuse to start a node again and again while no time passes."""
+        from launch.errors import LaunchError
+
+        now = self._launch.core.now()
+        at, times = self._starts.get(order.name, (now, 0))
+        self._starts[order.name] = now, times + 1 if at == now else 1
+        if self._starts[order.name][1] > _MOST_STARTS:
+            raise LaunchError(
+                f"{order.name} was started {_MOST_STARTS} times at one instant.",
+                "The node ends at once and is started again, and no virtual time passes meanwhile.",
+                "Find out why it ends; `respawn_delay` lets time pass before each start.",
+            )
 
     def log(self, level: int, name: str, text: str) -> None:
         """Log a line of the launch itself, among those of the nodes."""
