@@ -71,6 +71,8 @@ class Executable:
         self.cmd = [normalize_to_list_of_substitutions(word) for word in words]
         self.prefix, self.name, self.cwd, self.env = prefix, name, cwd, env
         self.additional_env = additional_env
+        #: What the log calls it, with its number; None before it starts.
+        self.final_name: str | None = None
 
     def words(self, context: LaunchContext) -> list[str]:
         """Return the command line."""
@@ -240,13 +242,12 @@ class _Run:
         self._context, self._action, self._order = context, action, order
         self._places = _places(context, action.output)
         self._respawn = performed_flag(context, action.respawn)
+        action.process_description.final_name = order.name
+        _check_format(action)
         self._process: RunningProcess | None = None
         self._retries = 0
         self._must_end = self._is_waiting = False
-        self._sigint_is_due = False
         self._cancels: list[Callable[[], None]] = []
-        action.process_description.final_name = order.name  # type: ignore[attr-defined]
-        # `output_format` of the original reads it there
 
     def listen(self) -> None:
         """Register what ends the process, and what follows its end."""
@@ -284,8 +285,8 @@ class _Run:
         self._details["pid"] = process.pid
         self._log(logging.INFO, f"process started with pid [{process.pid}]")
         self._context.emit_event(ProcessStarted(**self._details))
-        if self._must_end:  # asked before it ran
-            self._shut_down(self._sigint_is_due)
+        if self._must_end:  # asked before it ran, so no Ctrl+C has reached it
+            self._shut_down(send_sigint=True)
 
     def printed(self, fd: int, data: bytes) -> None:
         """Show what the process has printed, line by line."""
@@ -386,7 +387,7 @@ class _Run:
     def _ask_to_end(self, send_sigint: bool) -> None:
         if self._must_end or self._action not in self._context.running:
             return
-        self._must_end, self._sigint_is_due = True, send_sigint
+        self._must_end = True
         if self._process is not None:
             self._shut_down(send_sigint)
         elif self._is_waiting:  # to be started again
@@ -443,6 +444,22 @@ class _On(EventHandler):
 
 def _seconds(name: str, given: SomeSubstitutionsType | None) -> SomeSubstitutionsType:
     return LaunchConfiguration(name, default="5") if given is None else given
+
+
+def _check_format(action: ExecuteLocal) -> None:
+    """Check that `output_format` is one.
+
+    Raises:
+        LaunchError: If it is not.
+    """
+    try:
+        action.output_format.format(line="", this=action)
+    except (AttributeError, IndexError, KeyError, ValueError) as error:
+        raise LaunchError(
+            f"output_format={action.output_format!r} cannot be used: {error}",
+            "It says what a line that the process prints looks like, with {line} and {this}.",
+            "Write for example '[{this.process_description.final_name}] {line}'.",
+        ) from None
 
 
 def _places(context: LaunchContext, output: SomeOutput) -> dict[int, frozenset[str]]:

@@ -63,16 +63,24 @@ class RealHost:
         """Start a process, and tell the watcher what becomes of it."""
         task = self._loop.create_task(self._run_process(order, watcher))
         self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(self._forget)
+
+    def _forget(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        error = task.exception()
+        if error is not None and self._done is not None and not self._done.done():
+            self._done.set_exception(error)  # a fault of ours must not leave the launch waiting
 
     def log(self, level: int, name: str, text: str) -> None:
         """Log a line of the launch itself, on the screen and in `launch.log`."""
         if level < launch_config.level:
             return
-        known = {"levelname": logging.getLevelName(level), "name": name, "msg": text}
-        known["created"] = now = time.time()  # type: ignore[assignment] # for a format
+        known = {
+            **{"levelname": logging.getLevelName(level), "name": name, "msg": text},
+            "created": time.time(),
+        }
         self._print(launch_config.screen_format.format(**known))
-        self._keep("launch.log", launch_config.file_format.format(**{**known, "created": now}))
+        self._keep("launch.log", launch_config.file_format.format(**known))
 
     def note(self, *lines: str) -> None:
         """Show what the original does not say, among the errors."""

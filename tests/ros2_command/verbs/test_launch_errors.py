@@ -58,6 +58,11 @@ BROKEN = {
         'scren is not a valid standard output config i.e. "screen", "log" or "both"',
         "# Write 'screen' to see them",
     ),
+    "no format": (
+        'Node(package="demo", executable="say", output_format="{lin}"),',
+        "output_format='{lin}' cannot be used: 'lin'",
+        "# Write for example",
+    ),
     "a mixed list": (
         'Node(package="demo", executable="say", parameters=[{"l": [1, "a"]}]),',
         "Expected a non-empty sequence, with items of uniform type.",
