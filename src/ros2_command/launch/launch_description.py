@@ -26,6 +26,9 @@ class LaunchDescription(LaunchDescriptionEntity):
         deprecated_reason: str | None = None,
     ) -> None:  # fmt: skip
         self.entities = list(initial_entities or ())
+        for entity in self.entities:
+            if not isinstance(entity, LaunchDescriptionEntity):
+                raise TypeError(f"LaunchDescription expected actions, but got {entity!r}")
         self.deprecated_reason = deprecated_reason
 
     @property

@@ -149,17 +149,17 @@ class ExecuteLocal(Action):
         words = description.words(context)
         name = description.name
         label = os.path.basename(words[0]) if name is None else performed(context, name)
-        if self._run is not None:
-            raise LaunchError(
-                f"ExecuteLocal action '{label}': executed more than once: {self.describe()}",
-                "An action is one process, and this one has been started before.",
-                "Make another action for the second process.",
-            )
         order = Order(
             self, f"{label}-{context.next_process_number()}", words,
             None if description.cwd is None else performed(context, description.cwd),
             description.environment(context), self.shell, self._terminal(context),
         )  # fmt: skip
+        if self._run is not None:
+            raise LaunchError(
+                f"ExecuteLocal action '{order.name}': executed more than once: {self.describe()}",
+                "An action is one process, and this one has been started before.",
+                "Make another action for the second process.",
+            )
         self.process_details = {
             **{"action": self, "name": order.name, "cmd": words, "cwd": order.folder},
             "env": order.environment,

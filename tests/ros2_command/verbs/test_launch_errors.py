@@ -121,6 +121,11 @@ UNREADABLE = {
         " - TypeError: Action.__init__() got an unexpected keyword argument 'nmae'",
         "# Did you mean 'name'?",
     ),
+    "list.launch.py": (
+        f"{HEAD}[LogInfo(msg='x')]])\n",
+        " - TypeError: LaunchDescription expected actions, but got [",
+        "# Correct the launch file there",
+    ),
     "function.launch.py": (
         "x = 1\n",
         "does not contain the required function 'generate_launch_description()'",
