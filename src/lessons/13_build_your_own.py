@@ -575,8 +575,8 @@ setup(
 )
 
 # %% [markdown]
-# A [**launch file**](../docs/glossary.md#launch-file) is a Python file that says which programs to start, and how.
-# The function `generate_launch_description` returns a `LaunchDescription`, which holds a list, as your function
+# A [**launch file**](../docs/glossary.md#launch-file) says which programs to start, and how, in XML, YAML or, as here, in
+# Python. The function `generate_launch_description` returns a `LaunchDescription`, which holds a list, as your function
 # `greenhouse` does. Each item names a package and an executable, and can have the options from before, partly in
 # another form: `parameters` is a list of dictionaries, and `remappings` a list of pairs. `Node` is another class
 # here: it stands for a program to start.
