@@ -104,6 +104,7 @@ def demo_node(ros2, *words, file="demo_node.py"):
 def empty_domain(stack):
     """Lease a domain in which no process is left from somebody who was killed."""
     from ros2_command.graph import count_participants
+
     from rosbeat.domains import lease_domain
 
     while True:

@@ -4,7 +4,6 @@ import sys
 
 import pytest
 from readme_table import SOURCE, UPSTREAM, options, table, verbs
-
 from ros2_command.errors import CommandError
 from ros2_command.main import guarded, main
 from ros2_command.names import check_name, full_name, is_hidden, nearest

@@ -8,6 +8,8 @@ import yaml
 pytest.importorskip("std_msgs.msg")
 
 from geometry_msgs.msg import PoseArray, PoseStamped, PoseWithCovariance
+from ros2_command.errors import CommandError
+from ros2_command.messages import Style, fill, read_yaml, to_csv, to_yaml
 from sensor_msgs.msg import JointState
 from std_msgs.msg import (
     Bool,
@@ -23,9 +25,6 @@ from std_msgs.msg import (
     UInt8,
 )
 from unique_identifier_msgs.msg import UUID
-
-from ros2_command.errors import CommandError
-from ros2_command.messages import Style, fill, read_yaml, to_csv, to_yaml
 
 JOINTS = """\
 header:

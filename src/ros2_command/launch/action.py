@@ -6,9 +6,10 @@ import inspect
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from launch.events import ExecutionComplete
 from ros2_command.names import did_you_mean
 from ros2_command.untyped import Untyped
+
+from launch.events import ExecutionComplete
 
 if TYPE_CHECKING:
     from launch.conditions import Condition

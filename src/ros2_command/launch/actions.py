@@ -7,6 +7,8 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from ros2_command.untyped import Untyped
+
 from launch.action import Action, LaunchDescriptionEntity
 from launch.errors import LaunchError, alias_submodules, left_out
 from launch.event_handlers import BaseEventHandler, OnShutdown
@@ -24,7 +26,6 @@ from launch.substitution import (
     performed_as,
     performed_flag,
 )
-from ros2_command.untyped import Untyped
 
 __all__ = [
     "AppendEnvironmentVariable", "DeclareLaunchArgument", "EmitEvent", "ExecuteLocal",

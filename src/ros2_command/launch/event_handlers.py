@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from ros2_command.untyped import Untyped
+
 from launch.action import Action, LaunchDescriptionEntity
 from launch.errors import LaunchError, alias_submodules
 from launch.events import Event, ExecutionComplete, IncludeLaunchDescription, Shutdown
 from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
-from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

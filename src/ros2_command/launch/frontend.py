@@ -10,6 +10,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 import yaml
+from ros2_command.names import did_you_mean
+from ros2_command.untyped import Untyped
 
 from launch import actions, substitutions
 from launch.action import LaunchDescriptionEntity
@@ -17,8 +19,6 @@ from launch.conditions import IfCondition, UnlessCondition
 from launch.errors import InvalidLaunchFileError, refuse
 from launch.launch_description import LaunchDescription
 from launch.substitution import Substitution, TextSubstitution, from_text
-from ros2_command.names import did_you_mean
-from ros2_command.untyped import Untyped
 
 _Parts = list[Substitution]
 

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from weakref import finalize
 
+from ros2_command.untyped import Untyped
+
 from launch.host import Host, SilentHost
 from launch.substitution import Substitution
-from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.event_handlers import BaseEventHandler

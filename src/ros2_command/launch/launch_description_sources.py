@@ -10,6 +10,8 @@ from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from typing import TYPE_CHECKING
 
+from ros2_command.untyped import Untyped
+
 from launch.action import ArgumentNameError
 from launch.errors import InvalidLaunchFileError, LaunchError, alias_submodules
 from launch.substitution import (
@@ -18,7 +20,6 @@ from launch.substitution import (
     normalize_to_list_of_substitutions,
     performed,
 )
-from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

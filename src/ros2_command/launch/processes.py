@@ -11,6 +11,8 @@ import signal
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from ros2_command.untyped import Untyped
+
 from launch.action import Action
 from launch.conditions import evaluate_condition_expression
 from launch.errors import LaunchError
@@ -33,7 +35,6 @@ from launch.substitution import (
     performed_flag,
 )
 from launch.substitutions import LaunchConfiguration
-from ros2_command.untyped import Untyped
 
 SomeOutput = SomeSubstitutionsType | Mapping[str, str | Iterable[str]]
 _SCREEN, _LOG, _OWN = "screen", "log", "own_log"

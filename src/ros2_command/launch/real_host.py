@@ -15,9 +15,10 @@ from collections.abc import Callable, MutableMapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, TextIO
 
+from ros2_command.verbs.run import GroupWatch
+
 from launch.host import Order, Watcher
 from launch.logging import launch_config, logging_to
-from ros2_command.verbs.run import GroupWatch
 
 if TYPE_CHECKING:
     from launch.launch_service import Engine

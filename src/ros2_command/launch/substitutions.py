@@ -13,6 +13,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ros2_command.untyped import Untyped
+
 from launch.errors import SubstitutionFailure, alias_submodules
 from launch.substitution import (
     SomeSubstitutionsType,
@@ -24,7 +26,6 @@ from launch.substitution import (
     performed,
     performed_flag,
 )
-from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-
 from launch.action import Action
 from launch.errors import LaunchError, SubstitutionFailure, alias_submodules, left_out
 from launch.launch_context import LaunchContext
@@ -23,6 +22,8 @@ from launch.substitution import (
     performed,
 )
 from launch.substitutions import LocalSubstitution
+from ros2_command.untyped import Untyped
+
 from launch_ros.descriptions import (
     Parameter,
     ParameterFile,
@@ -30,7 +31,6 @@ from launch_ros.descriptions import (
 )
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
-from ros2_command.untyped import Untyped
 
 __all__ = [
     "Node", "PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile",

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import yaml
-
 from launch.errors import LaunchError, left_out
 from launch.substitution import (
     SomeSubstitutionsType,

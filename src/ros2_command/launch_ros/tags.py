@@ -17,6 +17,8 @@ from launch.frontend import (
     tag,
 )
 from launch.substitution import TextSubstitution, from_text
+from ros2_command.untyped import Untyped
+
 from launch_ros import actions
 from launch_ros.descriptions import ParameterFile, ParameterValue
 from launch_ros.substitutions import (
@@ -24,7 +26,6 @@ from launch_ros.substitutions import (
     FindPackagePrefix,
     FindPackageShare,
 )
-from ros2_command.untyped import Untyped
 
 substitution("find-pkg-share", 1, FindPackageShare)
 substitution("find-pkg-prefix", 1, FindPackagePrefix)

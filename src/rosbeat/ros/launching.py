@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from launch.errors import LaunchError
     from launch.host import Order, Watcher
     from launch_ros.actions import Node
+
     from rosbeat.ros.ports import AllPorts
 
 _PREFIXES = "AMENT_PREFIX_PATH"

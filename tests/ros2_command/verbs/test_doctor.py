@@ -1,5 +1,4 @@
 import pytest
-
 from ros2_command.verbs.completion import candidates
 from ros2_command.verbs.doctor import Finding, report, summarize
 

@@ -1,5 +1,4 @@
 import pytest
-
 from ros2_command.packages import nested_type
 
 TEMPERATURE = """\

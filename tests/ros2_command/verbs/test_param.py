@@ -1,7 +1,6 @@
 import re
 
 import pytest
-
 from ros2_command.verbs.param import flat, nested
 
 pytestmark = pytest.mark.ros

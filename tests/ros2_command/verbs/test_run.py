@@ -4,7 +4,6 @@ import sys
 from pathlib import Path
 
 import pytest
-
 from ros2_command.verbs.run import startable
 
 NODE = f"""#!{sys.executable}

@@ -2,7 +2,6 @@ import re
 
 import pytest
 from as_typed import interrupted
-
 from ros2_command.verbs.topic import Bandwidth, Delays, Rates
 
 pytestmark = pytest.mark.ros
