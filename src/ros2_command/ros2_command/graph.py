@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 import signal
-import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections import defaultdict
@@ -16,7 +15,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import NO_NOTES, CommandError, note
 from ros2_command.names import full_name, is_hidden
 from ros2_command.untyped import Untyped
 
@@ -36,8 +35,6 @@ AT_MOST = 20.0
 GAPS_FOR = 2.0
 #: Whoever waits for longer than this is told for what.
 SILENT_FOR = 2.0
-#: The variable that, if set, leaves that out: where outputs are compared.
-NO_NOTES = "ROS2_COMMAND_NO_NOTES"
 _LOOK_EVERY = 0.02
 
 
@@ -167,7 +164,7 @@ class Graph:
                 break
             if not told and self.age > SILENT_FOR and not os.environ.get(NO_NOTES):
                 told = True
-                print(self._what_is_awaited(), file=sys.stderr)
+                note(self._what_is_awaited())
             time.sleep(_LOOK_EVERY)
         return self
 

@@ -82,6 +82,7 @@ def executables(prefix: Path, name: str) -> list[Path]:
 INTERFACES = Path("share", "ament_index", "resource_index", "rosidl_interfaces")
 #: The kinds in the order in which they are listed, with their headings.
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+_SUFFIXES = tuple(f".{kind}" for kind in KINDS)
 
 
 @dataclass(frozen=True, order=True)
@@ -131,13 +132,15 @@ def all_interfaces() -> list[Interface]:
 
 
 def find_interface(name: str) -> Interface:
-    """Find one interface by its full name.
+    """Find one interface by its full name, or by that with the suffix of its file.
 
     Raises:
         CommandError: If the name has another form, or there is none; the nearest is suggested.
     """
     found = {one.name: one for one in all_interfaces()}
     parts = name.split("/")
+    if name.endswith(_SUFFIXES) and (with_suffix := found.get(name.rpartition(".")[0])):
+        return with_suffix
     if len(parts) != 3 or not all(parts):
         short = [one for one in found if len(parts) == 2 and one.split("/")[::2] == parts]
         raise CommandError(

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import signal
-import sys
 import time
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterator
@@ -17,7 +16,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 from ros2_command.graph import Graph, open_graph
 from ros2_command.names import (
     absolute,
@@ -153,7 +152,7 @@ def _record(args: Namespace) -> int:
     if not count:
         missing = [one for one in args.topics if absolute(one) not in recorder.counts]
         hint = suggestion(absolute(missing[0]), recorder.seen) if missing else ""
-        print(f"No message was recorded. {hint}".rstrip(), file=sys.stderr)
+        note(f"No message was recorded. {hint}")
     return 0
 
 
