@@ -210,25 +210,6 @@ def _expand(
     return lines
 
 
-def whole_definition(name: str) -> str:
-    """Return a message's definition and those of all messages in it, as a bag holds them.
-
-    Raises:
-        CommandError: If it, or one that it is made of, is not installed as a `.msg` file.
-    """
-    known = {one.name: one for one in all_interfaces()}
-    names, texts = [name], list[str]()
-    for one in names:  # grows while it is read
-        if one not in known or known[one].kind != "msg":
-            raise CommandError(f"The definition of {one} is not installed")
-        text = known[one].path.read_text(encoding="utf-8")
-        inner = [nested_type(line, known[one].package) for line in text.splitlines()]
-        names += [found for found in dict.fromkeys(inner) if found and found not in names]
-        title = f"{'=' * 80}\nMSG: {one.replace('/msg/', '/')}\n" if texts else ""
-        texts.append(title + text.rstrip("\n") + "\n")
-    return "".join(texts)
-
-
 def _without_comment(line: str) -> str:
     quoted = False
     for place, char in enumerate(line):

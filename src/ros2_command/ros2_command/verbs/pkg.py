@@ -1,4 +1,4 @@
-"""Implement `ros2 pkg`: list packages, and create ament_python packages."""
+"""Implement `ros2 pkg`: list packages, and create new ones."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ VERBS = {
                  help="Directory where to create the package directory"),
         argument("--build-type", default="ament_cmake",
                  choices=["cmake", "ament_cmake", "ament_python"],
-                 help="The build type to process the package with (here: ament_python)"),
+                 help="The build type to process the package with (here: not cmake)"),
         argument("--dependencies", nargs="+", default=[], help="list of dependencies"),
         argument("--maintainer-email", help="email address of the maintainer of this package"),
         argument("--maintainer-name", help="name of the maintainer of this package"),
