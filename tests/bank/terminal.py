@@ -26,11 +26,11 @@ _NEVER = (
 _NOTHING = "\nSummary: 0 packages finished [0.09s]"
 _READING = "[INFO] [temperature_sensor]: Publishing: 22.00C"
 _NO_EXECUTABLE = (
-    "No executable found\nPackage 'sensor_simulator' has no executables at all: "
+    "No executable found\n# Package 'sensor_simulator' has no executables at all: "
     "/home/you/install/sensor_simulator/lib/sensor_simulator is empty or missing.\n"
-    "A Python package needs an entry point in setup.py, and `colcon build` after that."
+    "# A Python package needs an entry point in setup.py, and `colcon build` after that."
 )
-_ASKED = "No executable found\nDid you mean 'temperature_publisher'?"
+_ASKED = "No executable found\n# Did you mean 'temperature_publisher'?"
 _MODULE = "sensor_simulator.temperature_publisher"
 
 

@@ -46,3 +46,11 @@ def rich(forks):
     """In a domain with `rich_node.py` alone."""
     with own_graph((), file="rich_node.py", forks=forks) as graph:
         yield graph
+
+
+@pytest.fixture(scope="module")
+def latched(forks):
+    """In a domain where a node has published one reliable message that it stores, and no more."""
+    node = ("strong", "/latched", "reliable")
+    with own_graph(node, file="latched_node.py", forks=forks) as graph:
+        yield graph

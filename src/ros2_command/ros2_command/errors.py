@@ -13,6 +13,10 @@ import sys
 #: set, as pages do that compare outputs, and every one of them where it is `all`.
 NO_NOTES = "ROS2_COMMAND_NO_NOTES"
 
+#: The signals that this process was asked to end by. What a handler raises may come out of the
+#: middleware's C++ as another exception, which knows nothing of it.
+ENDED_BY: list[int] = []
+
 
 def note(*texts: str) -> None:
     """Print texts as notes; empty ones are left out."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Sequence
@@ -11,7 +12,7 @@ from importlib.util import find_spec
 from io import TextIOWrapper
 from typing import NoReturn
 
-from ros2_command.errors import CommandError, UsageError
+from ros2_command.errors import ENDED_BY, CommandError, UsageError
 from ros2_command.registry import build, verbs_of, what_is_left_out, words_of
 
 INTERRUPTED = 2
@@ -76,6 +77,9 @@ def guarded(action: Callable[[], int]) -> int:
         _what_the_system_says(error).show()
         return _quietly(1)  # what is left in the buffer would fail once more at the very end
     except Exception as error:  # a learner cannot do anything with our stack
+        if ENDED_BY:
+            number = ENDED_BY[0]
+            return _quietly(INTERRUPTED if number == signal.SIGINT else 128 + number)
         print(f"ros2: unexpected {type(error).__name__}: {error}", file=sys.stderr)
         return 1
     return code

@@ -282,9 +282,10 @@ def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
     if type_name is not None:
         found = type_class(type_name, "msg")
         if types and (full := full_type(type_name, "msg")) not in types:
-            note(
-                f"The topic '{typed}' carries {show_types(types)}, not {full}. Messages of another "
-                "type are never received: leave the type out, or correct it.",
+            raise CommandError(
+                "",
+                f"The topic '{typed}' carries {show_types(types)}, not {full}",
+                "Messages of another type are never received. Leave the type out, or correct it.",
             )
         return found
     if not types:
@@ -315,7 +316,7 @@ def wait_for_server(
     graph: Graph, ready: Callable[[], bool], what: str, typed: str, asked: str,
     entries: Callable[[], Entries],
 ) -> None:  # fmt: skip
-    """Wait until somebody offers a service or an action; after a while say why nobody does.
+    """Wait until somebody offers a service or an action; after a while say that nobody does.
 
     Args:
         graph: Where the client is.
@@ -324,6 +325,9 @@ def wait_for_server(
         typed: Its name as typed.
         asked: Its type, `pkg/kind/Name`.
         entries: Tells the names and types of the graph.
+
+    Raises:
+        CommandError: If it is offered with another type.
     """
     graph.settle(ready)
     if ready():
@@ -332,10 +336,10 @@ def wait_for_server(
     found = {one: types for one, types in entries() if types != [asked] or one != name}
     if name in found:
         others = [one for one in found[name] if one != asked]
-        note(
-            f"The {what} '{name}' has the type {show_types(others)}, not {asked}. A request with "
-            "another type is never answered."
+        raise CommandError(
+            "",
+            f"The {what} '{name}' has the type {show_types(others)}, not {asked}",
+            "A request with another type is never answered.",
         )
-    else:
-        note(f"No node offers '{name}'. {suggestion(name, found)}")
+    note(f"No node offers '{name}'. {suggestion(name, found)}")
     graph.spin_until(ready)

@@ -174,9 +174,10 @@ def leave_out(reason: str, *options: str) -> Argument:
         for names in options:
             extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
             parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
-        assert isinstance(parser, Parser), "it is one of those below"
-        start = f"{parser.left_out}, " if parser.left_out else "Left out of this subset: "
-        parser.left_out = start + ", ".join(names.rpartition(",")[2] for names in options)
+        before = getattr(parser, "left_out", "")
+        more = ", ".join(names.rpartition(",")[2] for names in options)
+        start = f"{before}, " if before else "Left out of this subset: "
+        setattr(parser, "left_out", start + more)  # noqa: B010 - one of `Parser` has it
 
     return refuse
 

@@ -754,10 +754,11 @@ _CREATE_RULES = (
         "A folder {1} already exists, probably from the first time you ran this command.",
         "Nothing was changed. If that folder is your package, continue with it; if not, rename "
         "it first."),
-    Row("build-type", _CREATE, r"is left out here",
+    Row("build-type", _CREATE, r"^build type: (?:ament_)?cmake|Build type 'cmake' is left out",
         "Without `--build-type ament_python`, `ros2 pkg create` creates a C++ package, but your "
         "nodes are in Python.",
-        "Write that option; the rest of the command stays the same."),
+        "Remove the folder, and type the command again with that option. Only a package of your "
+        "own messages needs no such option."),
     Row("package-name", _CREATE, r"cannot be the name of a package(?! to depend on)",
         "A Python package is imported by its name, so the name follows Python's rules:",
         "lower-case letters, digits and `_`, beginning with a letter."),

@@ -1,6 +1,8 @@
 import os
 import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -76,6 +78,37 @@ def test_ctrl_c_reaches_the_child_once(ros2, demo):
     assert (process.returncode, out) == (7, "[ros2run]: Process exited with failure 7\n")
 
 
+COUNTER = """#!/bin/bash
+for name in INT TERM HUP; do trap "echo $name" $name; done
+echo ready
+for _ in $(seq 40); do sleep 0.05; done
+"""
+
+
+@pytest.mark.parametrize("name", ["INT", "TERM", "HUP"])
+def test_timeout_reaches_the_child_once(ros2, demo, name):
+    """`timeout` sends its signal to the child first, and then to the whole group."""
+    demo("count", COUNTER)
+    command = ["timeout", "-s", name, "1", *ros2.words("run", "demo", "count")]
+    done = subprocess.run(
+        command, env=ros2.environment, capture_output=True, text=True, start_new_session=True,
+        check=False, timeout=60,
+    )  # fmt: skip
+    assert done.stdout.splitlines() in (["ready", name], [name, "ready"])
+    assert done.returncode == 124
+
+
+def test_somebody_who_insists_is_heard(ros2, demo):
+    demo("count", COUNTER)
+    with ros2.running("run", "demo", "count") as process:
+        assert process.stdout.readline() == "ready\n"
+        os.killpg(process.pid, signal.SIGINT)
+        assert process.stdout.readline() == "INT\n"
+        time.sleep(0.4)  # as long as a person needs to insist, at least
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "INT\n"
+
+
 def test_what_cannot_be_found(ros2, demo):
     demo("talker", "#!/bin/sh\n")
     demo("plain", "#!/bin/sh\n", mode=0o644)
@@ -83,7 +116,7 @@ def test_what_cannot_be_found(ros2, demo):
     demo("twin", "", folder="b")
     assert "Did you mean 'demo'?" in ros2.error("run", "deemo", "talker")
     assert ros2.error("run", "demo", "talkr").startswith(
-        "No executable found\nDid you mean 'talker'?\n"
+        "No executable found\n# Did you mean 'talker'?\n"
     )
     assert "Did you mean 'talker'?" in ros2.error("run", "demo", "talker.py")
     assert "no execute permission" in ros2.error("run", "demo", "plain")
@@ -98,7 +131,9 @@ def test_what_cannot_be_started(ros2, demo):
     demo("wrong_line", "#!/nowhere/python\n")
     assert "#!/usr/bin/env python3" in ros2.error("run", "demo", "no_line")
     assert "No such file or directory" in ros2.error("run", "demo", "wrong_line")
-    assert "Failed to start nosuch" in ros2.error("run", "--prefix", "nosuch", "demo", "no_line")
+    error = ros2.error("run", "--prefix", "nosuch -x", "demo", "no_line")
+    assert error.startswith("Failed to start nosuch: No such file or directory\n# --prefix begins")
+    assert "#!/usr/bin" not in error
     assert "cannot be read" in ros2.error("run", "--prefix", "'", "demo", "no_line")
 
 

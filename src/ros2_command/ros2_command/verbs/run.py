@@ -60,7 +60,8 @@ def find_executable(package: str, name: str) -> Path:
     offered = executables(prefix, package)
     found = [path for path in offered if path.name == name]
     if len(found) > 1:
-        raise CommandError("Multiple executables found:", *(f"- {path}" for path in found))
+        paths = "".join(f"\n- {path}" for path in found)
+        raise CommandError(f"Multiple executables found:{paths}")
     if not found:
         raise CommandError("No executable found", *_why_not_found(prefix, package, name, offered))
     return found[0]
