@@ -102,7 +102,7 @@ viz.diagram("05")
 # | `install_requires` | Python packages that pip would install; ROS packages are listed in `package.xml` |
 # | `zip_safe` | whether it could run from a zip file |
 # | `maintainer`, `description`, `license` | keep them the same as in `package.xml`: no tool compares them, and yours may still say `TODO` here |
-# | `tests_require` | what its tests need |
+# | `extras_require` | what its tests need |
 # | `entry_points` | which functions become programs |
 #
 # Two of these are easy to get wrong. A folder without an `__init__.py` isn't a Python package: `find_packages`
@@ -155,7 +155,7 @@ setup(
     maintainer_email='you@example.com',
     description='A simulated temperature sensor and a monitor that judges its readings.',
     license='Apache-2.0',
-    tests_require=['pytest'],
+    extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
             # --- answer

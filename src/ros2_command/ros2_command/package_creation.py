@@ -343,7 +343,11 @@ def _tags(name: str, values: Sequence[str]) -> str:
 
 
 def _setup_py(args: Namespace) -> str:
-    """Return the build script, with texts as Python would show them, so quotes cannot break it."""
+    """Return the build script, with texts as Python would show them, so quotes cannot break it.
+
+    What tests require is an extra, as newer releases of the original write it. Before, it was
+    `tests_require`, which draws a warning from setuptools 72 and newer.
+    """
     name, node = args.package_name, args.node_name
     return _filled(
         "setup.py",

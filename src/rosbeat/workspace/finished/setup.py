@@ -17,7 +17,7 @@ setup(
     maintainer_email='you@example.com',
     description='A simulated temperature sensor and a monitor that judges its readings.',
     license='Apache-2.0',
-    tests_require=['pytest'],
+    extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
             'temperature_publisher = sensor_simulator.temperature_publisher:main',
