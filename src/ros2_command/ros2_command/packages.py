@@ -200,7 +200,7 @@ def _expand(
 ) -> list[str]:
     lines = []
     for line in interface.path.read_text(encoding="utf-8").splitlines():
-        text = line if keep else _without_comment(line)
+        text = line.rstrip() if keep else _without_comment(line)
         if not keep and not text:
             continue
         lines.append("\t" * level + text if text else text)

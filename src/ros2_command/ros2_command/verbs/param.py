@@ -229,7 +229,7 @@ def _list(args: Namespace) -> int:
         types = {}
         if args.param_type:
             asked = {node: {"names": own} for node, own in names.items() if own}
-            types = _ask_all(graph, "get_parameter_types", asked)
+            types = _ask_all(graph, "describe_parameters", asked)
     for node in nodes:
         if node not in names:
             place, _, base = node.rpartition("/")
@@ -281,7 +281,7 @@ def _say_that_it_hangs(node: str) -> None:
 def _show_names(names: Sequence[str], types: Untyped, heading: str) -> None:
     if names and heading:
         print(f"{heading}:")
-    endings = [f" (type: {KINDS[kind][0]})" for kind in types.types] if types else []
+    endings = [f" (type: {KINDS[one.type][0]})" for one in types.descriptors] if types else []
     for name, ending in zip_longest(names, endings, fillvalue=""):
         print(f"  {name}{ending}")
 

@@ -456,7 +456,10 @@ def _delay(args: Namespace) -> None:
 
 
 def _positive_float(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        raise ArgumentTypeError("Expects a floating point number") from None
     if not value > 0:
         raise ArgumentTypeError("Value must be positive")
     return value
