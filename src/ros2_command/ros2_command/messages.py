@@ -213,7 +213,6 @@ def _csv_text(value: str | bytes, style: Style) -> str:
 
 # Values.
 
-FAILED = "Failed to populate field: "
 _TIME = "builtin_interfaces/msg/Time"
 _HEADER = "std_msgs/msg/Header"
 
@@ -259,50 +258,72 @@ def value_text(values: str, stdin: bool) -> str:
     return sys.stdin.read() if stdin else values
 
 
-def fill(message: Untyped, values: Untyped) -> list[Stamper]:
+class FieldError(CommandError):
+    """Say that a field does not exist, or cannot take its value.
+
+    Args:
+        text: What is wrong.
+        kind: The name of the exception that the original has for it, which some verbs show.
+        *notes: What to try.
+    """
+
+    def __init__(self, text: str, kind: str, *notes: str) -> None:
+        super().__init__(f"Failed to populate field: {text}", *notes)
+        self.as_exception = f"{kind}({text!r})"
+
+
+def fill(message: Untyped, values: Untyped, stamps: bool = True) -> list[Stamper]:
     """Set the fields of a message.
+
+    Args:
+        message: The message.
+        values: A dictionary, as YAML has it.
+        stamps: Whether `auto` and `now` stand for the present time, as they do for `topic pub`.
 
     Returns:
         What to call with the present time before each sending, to renew its stamps.
 
     Raises:
-        CommandError: If a field does not exist, or cannot take its value.
+        FieldError: If a field does not exist, or cannot take its value.
     """
     if not isinstance(values, dict):
-        raise CommandError(
-            f"{FAILED}Value '{values}' is expected to be a dictionary but is a "
-            f"{type(values).__name__}"
-        )
+        kind = type(values).__name__
+        text = f"Value '{values}' is expected to be a dictionary but is a {kind}"
+        raise FieldError(text, "TypeError")
     known = message.get_fields_and_field_types()
     stampers: list[Stamper] = []
     for name, value in values.items():
         if name not in known:
-            raise CommandError(
-                f"{FAILED}'{type(message).__name__}' object has no attribute '{name}'",
-                did_you_mean(str(name), known, f"It has: {', '.join(known) or 'no fields'}"),
+            has = f"It has: {', '.join(known) or 'no fields'}"
+            raise FieldError(
+                f"'{type(message).__name__}' object has no attribute '{name}'",
+                "AttributeError",
+                did_you_mean(str(name), known, has),
             )
         kind = message.SLOT_TYPES[list(known).index(name)]
-        stampers += _fill_field(message, name, kind, value)
+        stampers += _fill_field(message, name, kind, value, stamps)
     return stampers
 
 
-def _fill_field(message: Untyped, name: str, kind: Untyped, value: Untyped) -> list[Stamper]:
-    special = _special(message, name, value)
+def _fill_field(
+    message: Untyped, name: str, kind: Untyped, value: Untyped, stamps: bool
+) -> list[Stamper]:
+    special = _special(message, name, value) if stamps else None
     if special is not None:
         return special
     old = getattr(message, name)
     if is_message_value(old):
-        return fill(old, value)
+        return fill(old, value, stamps)
     if _is_message_array(kind):
-        return _fill_messages(message, name, kind, value)
+        return _fill_messages(message, name, kind, value, stamps)
     try:
         message._check_fields = True  # numbers out of range are refused, not sent
         setattr(message, name, _convert(old, kind, value))
     except AssertionError as error:
         reason = " ".join(str(error).split())
-        raise CommandError(f"{FAILED}{reason}: {value!r} does not fit") from None
+        raise FieldError(f"{reason}: {value!r} does not fit", "AssertionError") from None
     except (TypeError, ValueError, OverflowError) as error:
-        raise CommandError(f"{FAILED}{error}") from None
+        raise FieldError(str(error), type(error).__name__) from None
     finally:
         message._check_fields = False
     return []
@@ -322,17 +343,20 @@ def _is_message_array(kind: Untyped) -> bool:
     return hasattr(getattr(kind, "value_type", None), "namespaced_name")
 
 
-def _fill_messages(message: Untyped, name: str, kind: Untyped, value: Untyped) -> list[Stamper]:
+def _fill_messages(
+    message: Untyped, name: str, kind: Untyped, value: Untyped, stamps: bool
+) -> list[Stamper]:
     if not isinstance(value, list):
-        raise CommandError(f"{FAILED}'{type(value).__name__}' object is not iterable")
+        raise FieldError(f"'{type(value).__name__}' object is not iterable", "TypeError")
     element = find_type("/".join(kind.value_type.namespaced_name()), "msg")
     assert element is not None, "the class of a field is loaded with the message"
     items, stampers = [], []
     for one in value:
         items.append(element())
-        stampers += fill(items[-1], one)
+        stampers += fill(items[-1], one, stamps)
     if hasattr(kind, "size") and len(items) != kind.size:
-        raise CommandError(f"{FAILED}'{name}' holds {kind.size} elements, not {len(items)}")
+        text = f"'{name}' holds {kind.size} elements, not {len(items)}"
+        raise FieldError(text, "AssertionError")
     setattr(message, name, items)
     return stampers
 

@@ -76,6 +76,11 @@ def test_what_is_not_there(rich):
         ((FIBONACCI[0], "std_msgs/msg/Bool"), "The passed action type is invalid"),
         ((FIBONACCI[0], "test_msgs/action/NestedMessage"), "has the type [test_msgs/action/Fib"),
         ((*FIBONACCI, "{ordr: 1}"), "Did you mean 'order'?"),
+        (
+            (*FIBONACCI, "{order: x}"),
+            "Failed to populate message fields: "
+            """ValueError("invalid literal for int() with base 10: 'x'")""",
+        ),
         (("a b", FIBONACCI[1]), "action name 'a b' is invalid"),
     ],
 )

@@ -7,7 +7,15 @@ from collections.abc import Callable
 
 from ros2_command.errors import CommandError, note
 from ros2_command.graph import Graph, open_graph
-from ros2_command.messages import Style, fill, read_yaml, to_yaml, value_arguments, value_text
+from ros2_command.messages import (
+    FieldError,
+    Style,
+    fill,
+    read_yaml,
+    to_yaml,
+    value_arguments,
+    value_text,
+)
 from ros2_command.names import (
     Entries,
     absolute,
@@ -83,7 +91,11 @@ def _send_goal(args: Namespace) -> int:
     check_name("action", args.action_name)
     kind = type_class(args.action_type, "action")
     goal = kind.Goal()
-    stampers = fill(goal, read_yaml(value_text(args.goal, args.stdin)))
+    try:
+        fill(goal, read_yaml(value_text(args.goal, args.stdin)), stamps=False)
+    except FieldError as error:
+        said = f"Failed to populate message fields: {error.as_exception}"
+        raise CommandError(said, *error.notes) from None
     with open_graph() as graph:
         client = ActionClient(graph.node, kind, args.action_name)
         try:
@@ -93,8 +105,6 @@ def _send_goal(args: Namespace) -> int:
                 graph, client.server_is_ready, "action", args.action_name, asked,
                 lambda: _actions(graph),
             )  # fmt: skip
-            for stamp in stampers:
-                stamp(graph.node.get_clock().now().to_msg())
             return _follow(graph, client, goal, args.feedback)
         finally:
             client.destroy()

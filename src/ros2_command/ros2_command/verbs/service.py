@@ -94,7 +94,7 @@ def _call(args: Namespace) -> None:
     check_name("service", args.service_name)
     kind = type_class(args.service_type, "srv")
     request = kind.Request()
-    stampers = fill(request, read_yaml(value_text(args.values, args.stdin)))
+    fill(request, read_yaml(value_text(args.values, args.stdin)), stamps=False)
     with open_graph() as graph:
         client = graph.node.create_client(kind, args.service_name)
         if not client.service_is_ready():
@@ -104,8 +104,6 @@ def _call(args: Namespace) -> None:
                 graph, client.service_is_ready, "service", args.service_name, asked, graph.services
             )
         for _ in graph.ticks(1 / (args.rate or 1)):
-            for stamp in stampers:
-                stamp(graph.node.get_clock().now().to_msg())
             print(f"requester: making request: {request!r}\n")
             print(f"response:\n{ask(graph, client, request)!r}\n")
             if args.rate is None:

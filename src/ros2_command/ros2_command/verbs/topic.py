@@ -246,12 +246,12 @@ def selected(message: Untyped, field: str) -> Untyped:
     Raises:
         CommandError: If there is none of that name.
     """
-    value = message
-    for name in field.split("."):
+    value, names = message, [name for name in field.split(".") if name]
+    for name in names:
         known = value.get_fields_and_field_types() if is_message_value(value) else {}
         if name not in known:
             raise CommandError(
-                f"Invalid field '{field}': '{type(value).__name__}' object has no attribute "
+                f"Invalid field '{'.'.join(names)}': '{type(value).__name__}' object has no attribute "
                 f"'{name}'",
                 did_you_mean(name, known, f"It has: {', '.join(known)}" if known else ""),
             )
