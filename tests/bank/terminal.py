@@ -44,6 +44,12 @@ def _traceback(last: str) -> str:
     )
 
 
+_NO_METADATA = _traceback(
+    "importlib.metadata.PackageNotFoundError: No package metadata was found for sensor-simulator"
+)
+_LINKED = "touch install/sensor_simulator/lib/python3.11/site-packages/sensor-simulator.egg-link\n"
+
+
 def _edit(old: str, new: str) -> str:
     return f'sed -i "s/{old}/{new}/" {_P}/setup.py\n'
 
@@ -101,6 +107,8 @@ ROWS = (
          BUILT + _edit("publisher:main',", "publisher:main'")),
     Case("22 run: a slash", "slash-in-module", _RUN, _READING, 0,
          BUILT + _edit("or.temp", "or\\/temp")),
+    Case("22 run: a link that could not be built", "comma-missing", _RUN, _NO_METADATA, 1,
+         BUILT + _LINKED + _edit("publisher:main',", "publisher:main'")),
     Case("22 no executable: no comma", "comma-missing", _RUN, _NO_EXECUTABLE, 1,
          BUILT + _edit("publisher:main',", "publisher:main'")),
     Case("a package.xml in src", "wrong-folder", _BUILD, before=f"cp {_P}/package.xml src/"),
@@ -125,10 +133,7 @@ ROWS = (
     Case("23 run and not sourced", "not-sourced", "install/setup.bash", before=BUILT),
     Case("23 run from here", "not-sourced", "./install/setup.bash", before=BUILT),
     Case("23 a link since", "not-sourced", _RUN,
-         _traceback("importlib.metadata.PackageNotFoundError: No package metadata was found for "
-                    "sensor-simulator"), 1,
-         BUILT + "touch install/sensor_simulator/lib/python3.11/site-packages/"
-         "sensor-simulator.egg-link"),
+         _NO_METADATA, 1, BUILT + _LINKED),
     Case("23 not built", "not-built", _RUN),
     Case("23 nothing to source", "not-built", "source install/setup.bash"),
     Case("24 edited", "not-rebuilt", _RUN, _READING, 0,

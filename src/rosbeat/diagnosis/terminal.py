@@ -1017,13 +1017,19 @@ def _no_such_executable(package: Package, name: str) -> Diagnosis:
     )
 
 
+def _lost_its_link(seen: Situation, package: Package) -> bool:
+    """Return whether a package is installed as a link, and what was started does not find it."""
+    return bool(
+        package.installed
+        and package.installed.linked
+        and package.name.replace("_", "-")
+        in "".join(re.findall(r"PackageNotFoundError: No package metadata .+", seen.error))
+    )
+
+
 def _linked_since(seen: Situation, call: Call, _: Found) -> bool:
     """Return whether a link has replaced the copy that this terminal was told of."""
-    return any(
-        package.installed and package.installed.linked and package.name.replace("_", "-") in lost
-        for package, _ in _asked_for(seen, call)
-        for lost in re.findall(r"PackageNotFoundError: No package metadata .+", seen.error)
-    )
+    return any(_lost_its_link(seen, package) for package, _ in _asked_for(seen, call))
 
 
 def _is_about_loading(seen: Situation, _: Package) -> bool:
@@ -1169,6 +1175,8 @@ _LOADING_RULES = (
         "`which python3` shows which Python a terminal uses. Open a terminal in "
         "JupyterLab, or run `./environment/course shell` in the folder of the course.",
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error),
+    # A build that fails leaves half of a link, and no terminal can know the rest.
+    PackageRule(_RUN, (_SETUP_UNREADABLE, _refused_flaw), when=_lost_its_link),
     Row("not-sourced", _RUN, "",
         "The package is now installed as a symbolic link, but this terminal sourced the "
         "workspace before that build.",

@@ -250,9 +250,9 @@ def selected(message: Untyped, field: str) -> Untyped:
     for name in names:
         known = value.get_fields_and_field_types() if is_message_value(value) else {}
         if name not in known:
+            whole, kind = ".".join(names), type(value).__name__
             raise CommandError(
-                f"Invalid field '{'.'.join(names)}': '{type(value).__name__}' object has no attribute "
-                f"'{name}'",
+                f"Invalid field '{whole}': '{kind}' object has no attribute '{name}'",
                 did_you_mean(name, known, f"It has: {', '.join(known)}" if known else ""),
             )
         value = getattr(value, name)
