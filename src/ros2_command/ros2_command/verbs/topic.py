@@ -250,9 +250,12 @@ def selected(message: Untyped, field: str) -> Untyped:
     for name in names:
         known = value.get_fields_and_field_types() if is_message_value(value) else {}
         if name not in known:
-            whole, kind = ".".join(names), type(value).__name__
+            kind = type(value)
+            plain = kind.__module__ == "builtins" or is_message_value(value)
+            module = "" if plain else f"{kind.__module__}."
             raise CommandError(
-                f"Invalid field '{whole}': '{kind}' object has no attribute '{name}'",
+                f"Invalid field '{'.'.join(names)}': '{module}{kind.__name__}' object has no "
+                f"attribute '{name}'",
                 did_you_mean(name, known, f"It has: {', '.join(known)}" if known else ""),
             )
         value = getattr(value, name)
