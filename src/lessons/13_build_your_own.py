@@ -644,7 +644,7 @@ def generate_launch_description():
 # ros2 topic pub --rate 1 /temperature std_msgs/msg/Float32 "{data: 27.5}"
 
 # %% terminal="look" shows=true
-# ros2 topic echo --once --qos-durability transient_local /vent
+# ros2 topic echo --once --qos-reliability reliable --qos-durability transient_local /vent
 
 # %% [markdown]
 # It does, because the parameter moved the limit to 27. `echo` asked for the last message that the publisher stores, so

@@ -61,3 +61,11 @@ def demo(ros2, tmp_path, monkeypatch):
     while (left := running_in(made.prefix)) and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not left
+
+
+@pytest.fixture(scope="module")
+def latched(forks):
+    """In a domain where a node has published one reliable message that it stores, and no more."""
+    node = ("strong", "/latched", "reliable")
+    with own_graph(node, file="latched_node.py", forks=forks) as graph:
+        yield graph

@@ -47,6 +47,9 @@ UPSTREAM = {
     "--max-bag-size --max-bag-duration --max-cache-size --start-paused --use-sim-time --node-name "
     "--custom-data --snapshot-mode --storage-preset-profile --compression-queue-size "
     "--compression-threads --compression-threads-priority --compression-mode --compression-format",
+    "daemon start": "--debug",
+    "daemon status": "",
+    "daemon stop": "",
     "doctor": "--report --report-failed --exclude-packages --include-warnings",
     "interface list": _KINDS,
     "interface package": _KINDS,
@@ -72,7 +75,7 @@ UPSTREAM = {
     "pkg xml": "--tag",
     "run": "--prefix",
     "service call": "--stdin --rate",
-    "service echo": f"{_GRAPH} {_QOS} {_STYLE}",
+    "service echo": _STYLE,
     "service find": "--count-services --include-hidden-services",
     "service info": _GRAPH,
     "service list": f"{_GRAPH} --show-types --count-services --include-hidden-services",

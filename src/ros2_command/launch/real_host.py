@@ -8,13 +8,13 @@ import logging
 import os
 import pty
 import signal
-import sys
 import termios
 import time
 from collections.abc import Callable, MutableMapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, TextIO
 
+from ros2_command.errors import note
 from ros2_command.verbs.run import GroupWatch
 
 from launch.host import Order, Watcher
@@ -85,9 +85,8 @@ class RealHost:
 
     def note(self, *lines: str) -> None:
         """Show what the original does not say, among the errors."""
-        for line in lines:
-            with suppress(OSError):
-                print(f"# {line}", file=sys.stderr, flush=True)
+        with suppress(OSError):
+            note(*lines)
 
     def write(self, line: str, process: str, stream: str, places: frozenset[str]) -> None:
         """Show or keep a line that a process has printed."""

@@ -24,7 +24,7 @@ _SET = ":="
 def _main(args: Namespace) -> int:
     path, words = _chosen(args)
     if args.launch_prefix is None and args.launch_prefix_filter is not None:
-        raise _error(
+        raise CommandError(
             "--launch-prefix must be specified if --launch-prefix-filter is provided",
             "The filter says which programs get the prefix, and there is none.",
             "Add --launch-prefix with the command that should go before the programs.",
@@ -47,7 +47,7 @@ def _check_launch() -> None:
     import launch
 
     if not hasattr(launch, "LaunchError"):
-        raise _error(
+        raise CommandError(
             f"Python finds another `launch` first, in {os.path.dirname(str(launch.__file__))}",
             "PYTHONPATH, or another installed package, puts it in front of the one meant.",
             "With a full ROS 2, use the `ros2` of that; else take the folder out of PYTHONPATH.",
@@ -72,13 +72,13 @@ def find_launch_file(package: str, name: str | None) -> Path:
     """
     packages = all_packages()
     if package not in packages:
-        raise _error(*_no_package(package, list(packages)))
+        raise CommandError(*_no_package(package, list(packages)))
     share = packages[package] / "share" / package
     files = sorted(path for path in share.rglob("*") if path.is_file())
     found = [path for path in files if path.name == name]
     if len(found) > 1:
         listed = ", ".join(f"'{path}'" for path in found)
-        raise _error(
+        raise CommandError(
             f"file '{name}' was found more than once in the share directory of package "
             f"'{package}': [{listed}]",
             "`ros2 launch` cannot know which of them is meant.",
@@ -96,12 +96,12 @@ def find_launch_file(package: str, name: str | None) -> Path:
         f"('share/{package}/launch', ['launch/{name or 'system.launch.py'}']), and `colcon build`."
     )
     if name is None:
-        raise _error(
+        raise CommandError(
             f"No launch file of package '{package}' was named",
             f"{listed}",
             f"Type:  ros2 launch {package} {names[0]}" if names else f"{advice}",
         )
-    raise _error(
+    raise CommandError(
         f"file '{name}' was not found in the share directory of package '{package}' which is at "
         f"'{share}'",
         f"{listed}",
@@ -131,7 +131,7 @@ def _arguments(words: list[str]) -> dict[str, str]:
     for word in words:
         name, sign, value = word.partition(_SET)
         if not sign or not name or not (value or word.count(_SET) > 1):
-            raise _error(
+            raise CommandError(
                 f"malformed launch argument '{word}', expected format '<name>:=<value>'",
                 "What stands behind the launch file gives its arguments their values.",
                 f"{_correction(word)}",
@@ -155,7 +155,7 @@ def _description(path: str) -> LaunchDescription:
     try:
         return get_launch_description_from_any_launch_file(path)
     except LaunchError as error:
-        raise _error(str(error), *explained(error)) from None
+        raise CommandError(str(error), *explained(error)) from None
 
 
 def _show(path: str, only_arguments: bool) -> None:
@@ -211,11 +211,6 @@ def words_after(package: str, file: str | None) -> list[str]:
         share = package_prefix(package) / "share" / package
         return [path.name for path in share.rglob("*") if path.name.endswith(ENDINGS)]
     return [f"{declared.name}{_SET}" for declared in _description(path).get_launch_arguments()]
-
-
-def _error(message: str, *notes: str) -> CommandError:
-    """Return an error with what the original says, and notes on what it means and what to try."""
-    return CommandError(message, *(f"# {note}" for note in notes))
 
 
 def _interactive() -> bool:
