@@ -195,8 +195,7 @@ def test_a_node_that_dies_fails_the_test(ros, demo):
     ros.launch(path)
     with pytest.raises(ExitCodeError, match="die"):
         ros.run(5)
-    ros.launch(path, check=False)
-    ros.run(5)
+    ros.launch(demo('Node(package="demo", executable="die"),'), check=False)
     assert "process has died [pid 1, exit code 3" in texts(ros, "die-1")[-1]
 
 

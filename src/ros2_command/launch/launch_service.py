@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription
     from launch.real_host import RealHost
 
+_OWN = os.path.dirname(os.path.dirname(__file__)) + os.sep
+
 
 class Engine:
     """Handle the events of a launch, one after the other, until nothing is left to do.
@@ -104,10 +106,11 @@ def explained(error: Exception) -> list[str]:
     """Return what an error means and what to try."""
     if isinstance(error, LaunchError):
         return [*error.meaning.splitlines(), error.advice]
-    frame = traceback.extract_tb(error.__traceback__)[-1]
+    frames = traceback.extract_tb(error.__traceback__)
+    frame = ([frame for frame in frames if not frame.filename.startswith(_OWN)] or frames)[-1]
     where = f"line {frame.lineno} of '{os.path.basename(frame.filename)}': {frame.line}"
     return [
-        f"This is a {type(error).__name__}, in {where}",
+        f"Python raised {type(error).__name__} in {where}",
         "Correct the launch file there; `ros2 launch --debug` shows the whole traceback.",
     ]
 

@@ -333,7 +333,8 @@ class _SessionHost:
     def log(self, level: int, name: str, text: str) -> None:
         """Log a line of the launch itself, among those of the nodes."""
         word = logging.getLevelName(level)
-        if level >= logging.INFO and not (self.is_starting and level >= logging.ERROR):
+        is_raised = self.is_starting and name == "launch" and level >= logging.ERROR
+        if level >= logging.INFO and not is_raised:
             self._launch.core.logged(_ROS_LEVELS.get(word, word), name, text, "", 0)
 
     def note(self, *lines: str) -> None:

@@ -88,6 +88,12 @@ def test_a_launch_that_fails_says_why_and_ends_what_runs(ros2, demo, case):
     assert error[-1].startswith(advice)
 
 
+def test_the_line_of_a_fault_is_one_of_the_launch_file(ros2, demo):
+    path = demo.file("OpaqueFunction(function=lambda context: [LogInfo(msg=5)]),")
+    _, error = refusal(ros2, path)
+    assert error[0].startswith("# Python raised TypeError in line 18 of 'x.launch.py': ")
+
+
 def test_a_failure_in_the_middle_ends_what_runs(ros2, demo):
     path = demo.file("""
         waiting := Node(package="demo", executable="wait", output="screen"),
