@@ -205,6 +205,16 @@ TABLE = [
     (ONE, "run rclpy nosuch", 1, "", "No executable found\n"),
     (ONE, "run rclpy", 2, "",
      "(?s)usage: .*the following arguments are required: executable_name, argv\n"),
+    (ONE, "interface show --no-comments sensor_msgs/msg/Temperature", 0,
+     "std_msgs/Header header #\n\tbuiltin_interfaces/Time stamp\n"
+     "\t\tint32 sec\n\t\tuint32 nanosec\n"
+     "\tstring frame_id\n {29}# frame_id is the location of the temperature reading\n"
+     "float64 temperature          #\nfloat64 variance             #\n", ""),
+    (ONE, "interface show --no-comments unique_identifier_msgs/msg/UUID", 0,
+     "#\nuint8\\[16\\] uuid\n", ""),
+    (ONE, "interface show -", 2, "", "(?s)usage: .*: error: the passed value is empty\n"),
+    (RICH, "service info /house/fibonacci/_action/send_goal", 1, "",
+     "Unknown service '/house/fibonacci/_action/send_goal'\n"),
     (ONE, "interface show std_msgs/msg/String", 0, "(?s).*string data\n", ""),
     (ONE, "interface show std_srvs/srv/Empty.srv", 0, "---\n", ""),
     (ONE, "interface show std_msgs/String", 1, "",

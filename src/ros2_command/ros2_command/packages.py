@@ -199,8 +199,8 @@ def _expand(
     interface: Interface, known: dict[str, Interface], comments: str, keep: bool, level: int
 ) -> list[str]:
     lines = []
-    for line in interface.path.read_text(encoding="utf-8").splitlines():
-        text = line.rstrip() if keep else _without_comment(line)
+    for line in map(str.rstrip, interface.path.read_text(encoding="utf-8").splitlines()):
+        text = line if keep else _without_comment(line)
         if not keep and not text:
             continue
         lines.append("\t" * level + text if text else text)
@@ -211,10 +211,12 @@ def _expand(
 
 
 def _without_comment(line: str) -> str:
-    quoted = False
-    for place, char in enumerate(line):
-        if char in "\"'":
-            quoted = not quoted
-        elif char == "#" and not quoted:
-            return line[:place].rstrip()
-    return line.rstrip()
+    """Return a line as the original shows it where comments are left out; empty if it has none.
+
+    It leaves the mark of a comment at a line's end, and a comment that is indented or says nothing.
+    """
+    mark = line.find("#")
+    comment = line[mark:].lstrip("#").strip() if mark >= 0 else ""
+    if not comment or (mark and not line[:mark].strip()):
+        return line
+    return line[: line.index(comment, mark) - 1].strip() if mark else ""

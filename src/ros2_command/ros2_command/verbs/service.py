@@ -81,7 +81,8 @@ def _find(args: Namespace) -> None:
 def _info(args: Namespace) -> None:
     with open_graph(args) as graph:
         name = args.service_name
-        types = types_of(name, _services(graph), f"Unknown service '{name}'")
+        services = visible(_services(graph), args.include_hidden_services)
+        types = types_of(name, services, f"Unknown service '{name}'")
         clients, servers = graph.node.count_clients(name), graph.node.count_services(name)
     print("Type:", types[0] if len(types) == 1 else types)
     print("Clients count:", clients)
