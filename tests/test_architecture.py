@@ -125,7 +125,7 @@ FLOORS = (
         {
             *("session_core", "session", "scenario", "tester", "programs", "listening"),
             *("test_nodes", "reports", "entity_watch", "node_lives"),
-            "robot_reporter",
+            *("robot_reporter", "launching"),
         },
         {"rclpy", "greenlet"},
     ),

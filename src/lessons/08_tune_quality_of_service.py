@@ -430,7 +430,8 @@ quiz("08", "c", "a", "b")
 # | no old messages | a lifespan at the endpoint where they would wait | messages that nobody reads in time are gone |
 #
 # **Outside the notebook**, `ros2 topic info --verbose` shows what each endpoint offers or asks for, and
-# `ros2 topic echo` can ask for the QoS that you choose:
+# `ros2 topic echo` can ask for the QoS that you choose. If you choose nothing, it follows the publishers. If you
+# choose one policy, it takes the others from its defaults, best effort and volatile, so choose both:
 #
 # ```bash
 # ros2 topic info --verbose /temperature

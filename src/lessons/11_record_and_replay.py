@@ -348,7 +348,7 @@ quiz("11", "c", "b", "a")
 # In a terminal, these commands do the same, both in this course and in a full ROS 2 installation:
 #
 # ```bash
-# ros2 bag record -o first_run /temperature
+# ros2 bag record -o first_run --topics /temperature
 # ros2 bag info first_run
 # ros2 bag play first_run --rate 10
 # ```

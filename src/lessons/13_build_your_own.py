@@ -575,8 +575,8 @@ setup(
 )
 
 # %% [markdown]
-# A [**launch file**](../docs/glossary.md#launch-file) is a Python file that says which programs to start, and how.
-# The function `generate_launch_description` returns a `LaunchDescription`, which holds a list, as your function
+# A [**launch file**](../docs/glossary.md#launch-file) says which programs to start, and how, in XML, YAML or, as here, in
+# Python. The function `generate_launch_description` returns a `LaunchDescription`, which holds a list, as your function
 # `greenhouse` does. Each item names a package and an executable, and can have the options from before, partly in
 # another form: `parameters` is a list of dictionaries, and `remappings` a list of pairs. `Node` is another class
 # here: it stands for a program to start.
@@ -617,10 +617,10 @@ def generate_launch_description():
 # ls install/greenhouse/share/greenhouse/launch
 
 # %% [markdown]
-# The programs and the launch file are installed. On a robot, `ros2 launch greenhouse greenhouse.launch.py` would now
-# start the whole system. `ros2 launch` comes with a full ROS 2 installation; it isn't available on PyPI, so this course
-# doesn't have it. Without it, you start each program in a terminal of its own. The launch file's options become options
-# of the command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
+# The programs and the launch file are installed. In one terminal, `ros2 launch greenhouse greenhouse.launch.py` now
+# starts the whole system, and `Ctrl` + `C` ends it. To watch one program at a time, you start each in a terminal of its
+# own. The launch file's options become options of the command, after `--ros-args`: `-p` sets a parameter, and `-r`
+# remaps a topic.
 
 # %% terminal="vent --until ready" only="notebook"
 # cd "$ROS2_WORKSPACE"
@@ -644,7 +644,7 @@ def generate_launch_description():
 # ros2 topic pub --rate 1 /temperature std_msgs/msg/Float32 "{data: 27.5}"
 
 # %% terminal="look" shows=true
-# ros2 topic echo --once --qos-durability transient_local /vent
+# ros2 topic echo --once --qos-reliability reliable --qos-durability transient_local /vent
 
 # %% [markdown]
 # It does, because the parameter moved the limit to 27. `echo` asked for the last message that the publisher stores, so

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rosbeat.ros.launch import Launch
+    from rosbeat.ros.launching import SimulatedLaunch
     from rosbeat.ros.simulated_program import SimulatedProgram
 
 __all__ = ["ExpectedFault", "GoalResult", "TestSession"]
@@ -335,6 +336,38 @@ class TestSession(Session):
         started = super().spawn(program, *arguments)
         if not check:
             self._console.leave_unchecked(started)
+        self.raise_faults()
+        return started
+
+    @called_as('ros.launch("greenhouse.launch.py")')
+    def launch(
+        self,
+        source: Any,  # noqa: ANN401 - unchecked input
+        arguments: Mapping[str, Any] | None = None,
+        *,
+        check: bool = True,
+    ) -> SimulatedLaunch:
+        """Launch the nodes of a launch file, as `Session.launch` does.
+
+        Args:
+            source: The launch file in Python, XML or YAML, or a `LaunchDescription`.
+            arguments: The values of its arguments: `{"rate": 2.0}`.
+            check: Whether the test fails if one of its nodes, or the launch itself, ends with an
+                exit code other than 0, or with an exception.
+
+        Raises:
+            SessionError: If it cannot be launched.
+            ExitCodeError: If a node has ended already, with another exit code than 0.
+        """
+        __tracebackhide__ = True
+        leave = self._console.leave_unchecked
+        try:
+            started = self._launch(source, arguments or {}, (lambda _: None) if check else leave)
+        except SessionError:
+            self._console.pending.clear()  # it says what the exit code would say
+            raise
+        if not check:
+            leave(started)
         self.raise_faults()
         return started
 

@@ -26,11 +26,11 @@ _NEVER = (
 _NOTHING = "\nSummary: 0 packages finished [0.09s]"
 _READING = "[INFO] [temperature_sensor]: Publishing: 22.00C"
 _NO_EXECUTABLE = (
-    "No executable found\nPackage 'sensor_simulator' has no executables at all: "
+    "No executable found\n# Package 'sensor_simulator' has no executables at all: "
     "/home/you/install/sensor_simulator/lib/sensor_simulator is empty or missing.\n"
-    "A Python package needs an entry point in setup.py, and `colcon build` after that."
+    "# A Python package needs an entry point in setup.py, and `colcon build` after that."
 )
-_ASKED = "No executable found\nDid you mean 'temperature_publisher'?"
+_ASKED = "No executable found\n# Did you mean 'temperature_publisher'?"
 _MODULE = "sensor_simulator.temperature_publisher"
 
 
@@ -42,6 +42,12 @@ def _traceback(last: str) -> str:
         f"'console_scripts', 'temperature_publisher')())\n{last}\n"
         "[ros2run]: Process exited with failure 1"
     )
+
+
+_NO_METADATA = _traceback(
+    "importlib.metadata.PackageNotFoundError: No package metadata was found for sensor-simulator"
+)
+_LINKED = "touch install/sensor_simulator/lib/python3.11/site-packages/sensor-simulator.egg-link\n"
 
 
 def _edit(old: str, new: str) -> str:
@@ -101,6 +107,8 @@ ROWS = (
          BUILT + _edit("publisher:main',", "publisher:main'")),
     Case("22 run: a slash", "slash-in-module", _RUN, _READING, 0,
          BUILT + _edit("or.temp", "or\\/temp")),
+    Case("22 run: a link that could not be built", "comma-missing", _RUN, _NO_METADATA, 1,
+         BUILT + _LINKED + _edit("publisher:main',", "publisher:main'")),
     Case("22 no executable: no comma", "comma-missing", _RUN, _NO_EXECUTABLE, 1,
          BUILT + _edit("publisher:main',", "publisher:main'")),
     Case("a package.xml in src", "wrong-folder", _BUILD, before=f"cp {_P}/package.xml src/"),
@@ -125,10 +133,7 @@ ROWS = (
     Case("23 run and not sourced", "not-sourced", "install/setup.bash", before=BUILT),
     Case("23 run from here", "not-sourced", "./install/setup.bash", before=BUILT),
     Case("23 a link since", "not-sourced", _RUN,
-         _traceback("importlib.metadata.PackageNotFoundError: No package metadata was found for "
-                    "sensor-simulator"), 1,
-         BUILT + "touch install/sensor_simulator/lib/python3.11/site-packages/"
-         "sensor-simulator.egg-link"),
+         _NO_METADATA, 1, BUILT + _LINKED),
     Case("23 not built", "not-built", _RUN),
     Case("23 nothing to source", "not-built", "source install/setup.bash"),
     Case("24 edited", "not-rebuilt", _RUN, _READING, 0,

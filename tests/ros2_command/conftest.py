@@ -1,6 +1,7 @@
 """The command with and without nodes to talk to."""
 
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ sys.path[:0] = [str(HERE.parents[1] / "src" / "ros2_command"), str(HERE)]
 
 from as_typed import Ros2, demo_node, own_graph  # noqa: E402
 from forking import Forks  # noqa: E402
+from launch_package import Demo, running_in  # noqa: E402
 
 
 @pytest.fixture(scope="session")
@@ -45,4 +47,25 @@ def graph(forks):
 def rich(forks):
     """In a domain with `rich_node.py` alone."""
     with own_graph((), file="rich_node.py", forks=forks) as graph:
+        yield graph
+
+
+@pytest.fixture
+def demo(ros2, tmp_path, monkeypatch):
+    """The package `demo`; at the end none of its programs runs."""
+    made = Demo(tmp_path / "prefix")
+    monkeypatch.setitem(ros2.environment, "AMENT_PREFIX_PATH", str(made.prefix))
+    monkeypatch.setitem(ros2.environment, "ROS_LOG_DIR", str(tmp_path / "log"))
+    yield made
+    deadline = time.monotonic() + 10
+    while (left := running_in(made.prefix)) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not left
+
+
+@pytest.fixture(scope="module")
+def latched(forks):
+    """In a domain where a node has published one reliable message that it stores, and no more."""
+    node = ("strong", "/latched", "reliable")
+    with own_graph(node, file="latched_node.py", forks=forks) as graph:
         yield graph

@@ -47,12 +47,17 @@ UPSTREAM = {
     "--max-bag-size --max-bag-duration --max-cache-size --start-paused --use-sim-time --node-name "
     "--custom-data --snapshot-mode --storage-preset-profile --compression-queue-size "
     "--compression-threads --compression-threads-priority --compression-mode --compression-format",
+    "daemon start": "--debug",
+    "daemon status": "",
+    "daemon stop": "",
     "doctor": "--report --report-failed --exclude-packages --include-warnings",
     "interface list": _KINDS,
     "interface package": _KINDS,
     "interface packages": _KINDS,
     "interface proto": "--no-quotes",
     "interface show": "--all-comments --no-comments",
+    "launch": "--noninteractive --debug --print --print-description --show-args --show-arguments "
+    "--show-all-subprocesses-output --launch-prefix --launch-prefix-filter",
     "node info": f"{_GRAPH} --include-hidden",
     "node list": f"{_GRAPH} --all --count-nodes",
     "param delete": _NODE,
@@ -70,7 +75,7 @@ UPSTREAM = {
     "pkg xml": "--tag",
     "run": "--prefix",
     "service call": "--stdin --rate",
-    "service echo": f"{_GRAPH} {_QOS} {_STYLE}",
+    "service echo": _STYLE,
     "service find": "--count-services --include-hidden-services",
     "service info": _GRAPH,
     "service list": f"{_GRAPH} --show-types --count-services --include-hidden-services",

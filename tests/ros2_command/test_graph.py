@@ -68,7 +68,7 @@ def test_a_long_wait_says_for_what(monkeypatch, capsys):
     ToldGraph([0], False).settle()
     error = capsys.readouterr().err
     assert error == (
-        "Waiting for a complete answer: 2 of 3 ROS processes on this machine have not answered "
+        "# Waiting for a complete answer: 2 of 3 ROS processes on this machine have not answered "
         "yet.\n"
     )
     monkeypatch.setenv("ROS2_COMMAND_NO_NOTES", "1")

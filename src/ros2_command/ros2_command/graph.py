@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 import signal
-import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections import defaultdict
@@ -16,7 +15,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import ENDED_BY, NO_NOTES, CommandError, note
 from ros2_command.names import full_name, is_hidden
 from ros2_command.untyped import Untyped
 
@@ -36,8 +35,6 @@ AT_MOST = 20.0
 GAPS_FOR = 2.0
 #: Whoever waits for longer than this is told for what.
 SILENT_FOR = 2.0
-#: The variable that, if set, leaves that out: where outputs are compared.
-NO_NOTES = "ROS2_COMMAND_NO_NOTES"
 _LOOK_EVERY = 0.02
 
 
@@ -167,7 +164,7 @@ class Graph:
                 break
             if not told and self.age > SILENT_FOR and not os.environ.get(NO_NOTES):
                 told = True
-                print(self._what_is_awaited(), file=sys.stderr)
+                note(self._what_is_awaited())
             time.sleep(_LOOK_EVERY)
         return self
 
@@ -235,8 +232,10 @@ class Graph:
     def nodes(self, hidden: bool = False) -> list[str]:
         """Return the full name of every node but this one, sorted."""
         own = full_name(self.node.get_name(), self.node.get_namespace())
-        names = [full_name(*one) for one in self.node.get_node_names_and_namespaces()]
-        return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
+        known = self.node.get_node_names_and_namespaces()
+        # A node is hidden by its own name, and not by that of its namespace.
+        names = [full_name(*one) for one in known if hidden or not is_hidden(one[0])]
+        return sorted(name for name in names if name != own)
 
     def publishers(self, topic: str) -> list[Any]:
         """Return every publisher on a topic."""
@@ -275,8 +274,10 @@ def open_graph(args: Namespace | None = None, name: str | None = None) -> Iterat
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _leave)
     # A shell without job control starts what stands before `&` with Ctrl+C ignored.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGINT, _interrupt)
     _choose_profile()
+    # The middleware wants to know where its log files are, also where nobody has said it.
+    os.environ.setdefault("HOME", os.path.expanduser("~"))
     graph = _start(args, name or f"_ros2cli_{os.getpid()}")
     try:
         yield graph
@@ -287,7 +288,13 @@ def open_graph(args: Namespace | None = None, name: str | None = None) -> Iterat
 
 def _leave(number: int, frame: object) -> NoReturn:
     """Take the node out of the graph first; else others would see it for as long as it is due."""
+    ENDED_BY.append(number)
     raise SystemExit(128 + number)
+
+
+def _interrupt(number: int, frame: object) -> NoReturn:
+    ENDED_BY.append(number)
+    raise KeyboardInterrupt
 
 
 def _start(args: Namespace | None, name: str) -> Graph:

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import array
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from ros2_command.errors import CommandError
 from ros2_command.names import did_you_mean, find_type
+from ros2_command.registry import Argument, argument, flag, one_of
 from ros2_command.untyped import Untyped
 
 
@@ -34,17 +35,30 @@ class Style:
     flow: bool = False
 
 
-def add_style_arguments(parser: ArgumentParser) -> None:
-    """Add the options of verbs that show messages."""
+def add_style_arguments(parser: ArgumentParser, field: Argument | None = None) -> None:
+    """Add the options of verbs that show messages.
+
+    Args:
+        parser: The verb's parser.
+        field: Declares what one of them has after the first option.
+    """
     add = parser.add_argument
     add("--csv", action="store_true", help="Output all recursive fields separated by commas")
-    add("-f", "--full-length", action="store_true",
+    if field is not None:
+        field(parser)
+    add("--full-length", "-f", action="store_true",
         help="Output all elements for arrays, bytes, and strings")  # fmt: skip
-    add("-l", "--truncate-length", type=int, default=128,
+    add("--truncate-length", "-l", type=_unsigned, default=128,
         help="The length to truncate arrays, bytes, and strings to (default: 128)")  # fmt: skip
     add("--no-arr", action="store_true", help="Don't print array fields of messages")
     add("--no-str", action="store_true", help="Don't print string fields of messages")
     add("--flow-style", action="store_true", help="Print collections in the flow style")
+
+
+def _unsigned(text: str) -> int:
+    if not text.isdecimal():
+        raise ArgumentTypeError("value must be non-negative integer")
+    return int(text)
 
 
 def style_of(args: Namespace) -> Style:
@@ -97,7 +111,7 @@ class _Inline(list[Any]):
 
 
 def _plain_text(value: str | bytes, style: Style) -> str:
-    if style.no_str:
+    if style.no_str and isinstance(value, str):
         return f"<string length: <{len(value)}>>"
     text = value if isinstance(value, str) else value.decode("latin-1")
     if style.limit is not None and len(text) > style.limit:
@@ -121,8 +135,14 @@ def _type_name(kind: Untyped) -> str:
     return "wstring" if "WString" in type(kind).__name__ else "string"
 
 
-def plain_to_yaml(value: Untyped, flow: bool = False) -> str:
-    """Return dictionaries, lists and plain values as YAML that ends in a newline."""
+def plain_to_yaml(value: Untyped, flow: bool = False, one_line: bool = False) -> str:
+    """Return dictionaries, lists and plain values as YAML that ends in a newline.
+
+    Args:
+        value: What to write.
+        flow: Whether arrays stand on one line.
+        one_line: Whether all of it does.
+    """
     import yaml
 
     class Dumper(yaml.SafeDumper):
@@ -130,13 +150,15 @@ def plain_to_yaml(value: Untyped, flow: bool = False) -> str:
             return True
 
     def inline(dumper: Untyped, data: _Inline) -> Untyped:
-        return dumper.represent_sequence("tag:yaml.org,2002:seq", data, flow_style=flow or None)
+        return dumper.represent_sequence(
+            "tag:yaml.org,2002:seq", data, flow_style=flow or one_line or None
+        )
 
     Dumper.add_representer(_Inline, inline)
     return str(
         yaml.dump(
             value, Dumper=Dumper, allow_unicode=True, sort_keys=False, width=float("inf"),
-            default_flow_style=False,
+            default_flow_style=one_line,
         )
     )  # fmt: skip
 
@@ -146,46 +168,51 @@ def to_yaml(message: Untyped, style: Style) -> str:
     return plain_to_yaml(to_plain(message, style), style.flow)
 
 
+def prototype(message: Untyped) -> str:
+    """Return a message as YAML on one line, as it is typed in a command."""
+    return plain_to_yaml(to_plain(message, Style(limit=None)), one_line=True).strip()
+
+
 def to_csv(message: Untyped, style: Style) -> str:
-    """Return all values of a message on one line."""
-    return ",".join(_leaves(message, None, style))
+    """Return all values of a message on one line.
+
+    As in the original, an empty value that nothing stands before takes no column.
+    """
+    return _joined(_cell(value, kind, style) for _, kind, value in fields_of(message))
 
 
-def _leaves(value: Untyped, kind: Untyped, style: Style) -> Iterable[str]:
+def _joined(cells: Iterable[str]) -> str:
+    line = ""
+    for cell in cells:
+        line += f",{cell}" if line else cell
+    return line
+
+
+def _cell(value: Untyped, kind: Untyped, style: Style) -> str:
     if is_message_value(value):
-        for _, field_kind, field in fields_of(value):
-            yield from _leaves(field, field_kind, style)
-    elif is_array(value):
-        yield from _array_leaves(value, kind, style)
-    elif isinstance(value, str | bytes):
-        yield _csv_text(value, style)
-    else:
-        yield str(value)
-
-
-def _array_leaves(value: Untyped, kind: Untyped, style: Style) -> Iterable[str]:
+        return to_csv(value, style)
+    if isinstance(value, str | bytes):
+        return _csv_text(value, style)
+    if not is_array(value):
+        return str(value)
     if style.no_arr and kind is not None:
-        yield _array_summary(value, kind)
-        return
+        return _array_summary(value, kind)
     cut = style.limit is not None and len(value) > style.limit
-    for item in value[: style.limit] if cut else value:
-        yield from _leaves(item, None, style)
-    if cut:
-        yield "..."
-    if len(value) == 0 and not hasattr(getattr(kind, "value_type", None), "namespaced_name"):
-        yield ""
+    cells = [_cell(item, None, style) for item in (value[: style.limit] if cut else value)]
+    return _joined([*cells, *(["..."] if cut else [])])
 
 
 def _csv_text(value: str | bytes, style: Style) -> str:
-    if style.no_str:
+    if style.no_str and isinstance(value, str):
         return f"<string length: <{len(value)}>>"
-    text = str(value)
-    return text[: style.limit] + "..." if style.limit and len(value) > style.limit else text
+    if style.limit is None or len(value) <= style.limit:
+        return str(value)
+    cut = value[: style.limit]
+    return str(cut + b"..." if isinstance(cut, bytes) else f"{cut}...")
 
 
 # Values.
 
-FAILED = "Failed to populate field: "
 _TIME = "builtin_interfaces/msg/Time"
 _HEADER = "std_msgs/msg/Header"
 
@@ -213,67 +240,90 @@ def read_yaml(text: str) -> Untyped:
         ) from None
 
 
-def add_value_arguments(parser: ArgumentParser, name: str, about: str) -> None:
-    """Add the arguments of verbs that send a message.
+def value_arguments(name: str, about: str) -> Argument:
+    """Return what declares the arguments of verbs that send a message.
 
     Args:
-        parser: The verb's parser.
         name: Of the positional argument.
         about: Its help.
     """
-    parser.add_argument(name, nargs="?", help=about)
-    parser.add_argument("--stdin", action="store_true", help="Read values from standard input")
+    return one_of(
+        argument(name, nargs="?", default="{}", help=about),
+        flag("--stdin", help="Read values from standard input"),
+    )
 
 
-def value_text(values: str | None, stdin: bool) -> str:
+def value_text(values: str, stdin: bool) -> str:
     """Return the text of the values: the argument, or standard input."""
-    return sys.stdin.read() if stdin else "{}" if values is None else values
+    return sys.stdin.read() if stdin else values
 
 
-def fill(message: Untyped, values: Untyped) -> list[Stamper]:
+class FieldError(CommandError):
+    """Say that a field does not exist, or cannot take its value.
+
+    Args:
+        text: What is wrong.
+        kind: The name of the exception that the original has for it, which some verbs show.
+        *notes: What to try.
+    """
+
+    def __init__(self, text: str, kind: str, *notes: str) -> None:
+        super().__init__(f"Failed to populate field: {text}", *notes)
+        self.as_exception = f"{kind}({text!r})"
+
+
+def fill(message: Untyped, values: Untyped, stamps: bool = True) -> list[Stamper]:
     """Set the fields of a message.
+
+    Args:
+        message: The message.
+        values: A dictionary, as YAML has it.
+        stamps: Whether `auto` and `now` stand for the present time, as they do for `topic pub`.
 
     Returns:
         What to call with the present time before each sending, to renew its stamps.
 
     Raises:
-        CommandError: If a field does not exist, or cannot take its value.
+        FieldError: If a field does not exist, or cannot take its value.
     """
     if not isinstance(values, dict):
-        raise CommandError(
-            f"{FAILED}Value '{values}' is expected to be a dictionary but is a "
-            f"{type(values).__name__}"
-        )
+        kind = type(values).__name__
+        text = f"Value '{values}' is expected to be a dictionary but is a {kind}"
+        raise FieldError(text, "TypeError")
     known = message.get_fields_and_field_types()
     stampers: list[Stamper] = []
     for name, value in values.items():
         if name not in known:
-            raise CommandError(
-                f"{FAILED}'{type(message).__name__}' object has no attribute '{name}'",
-                did_you_mean(str(name), known, f"It has: {', '.join(known) or 'no fields'}"),
+            has = f"It has: {', '.join(known) or 'no fields'}"
+            raise FieldError(
+                f"'{type(message).__name__}' object has no attribute '{name}'",
+                "AttributeError",
+                did_you_mean(str(name), known, has),
             )
         kind = message.SLOT_TYPES[list(known).index(name)]
-        stampers += _fill_field(message, name, kind, value)
+        stampers += _fill_field(message, name, kind, value, stamps)
     return stampers
 
 
-def _fill_field(message: Untyped, name: str, kind: Untyped, value: Untyped) -> list[Stamper]:
-    special = _special(message, name, value)
+def _fill_field(
+    message: Untyped, name: str, kind: Untyped, value: Untyped, stamps: bool
+) -> list[Stamper]:
+    special = _special(message, name, value) if stamps else None
     if special is not None:
         return special
     old = getattr(message, name)
     if is_message_value(old):
-        return fill(old, value)
+        return fill(old, value, stamps)
     if _is_message_array(kind):
-        return _fill_messages(message, name, kind, value)
+        return _fill_messages(message, name, kind, value, stamps)
     try:
         message._check_fields = True  # numbers out of range are refused, not sent
         setattr(message, name, _convert(old, kind, value))
     except AssertionError as error:
         reason = " ".join(str(error).split())
-        raise CommandError(f"{FAILED}{reason}: {value!r} does not fit") from None
+        raise FieldError(f"{reason}: {value!r} does not fit", "AssertionError") from None
     except (TypeError, ValueError, OverflowError) as error:
-        raise CommandError(f"{FAILED}{error}") from None
+        raise FieldError(str(error), type(error).__name__) from None
     finally:
         message._check_fields = False
     return []
@@ -293,17 +343,20 @@ def _is_message_array(kind: Untyped) -> bool:
     return hasattr(getattr(kind, "value_type", None), "namespaced_name")
 
 
-def _fill_messages(message: Untyped, name: str, kind: Untyped, value: Untyped) -> list[Stamper]:
+def _fill_messages(
+    message: Untyped, name: str, kind: Untyped, value: Untyped, stamps: bool
+) -> list[Stamper]:
     if not isinstance(value, list):
-        raise CommandError(f"{FAILED}'{type(value).__name__}' object is not iterable")
+        raise FieldError(f"'{type(value).__name__}' object is not iterable", "TypeError")
     element = find_type("/".join(kind.value_type.namespaced_name()), "msg")
     assert element is not None, "the class of a field is loaded with the message"
     items, stampers = [], []
     for one in value:
         items.append(element())
-        stampers += fill(items[-1], one)
+        stampers += fill(items[-1], one, stamps)
     if hasattr(kind, "size") and len(items) != kind.size:
-        raise CommandError(f"{FAILED}'{name}' holds {kind.size} elements, not {len(items)}")
+        text = f"'{name}' holds {kind.size} elements, not {len(items)}"
+        raise FieldError(text, "AssertionError")
     setattr(message, name, items)
     return stampers
 

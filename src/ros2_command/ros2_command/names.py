@@ -6,16 +6,17 @@ A name that is not there gets the nearest one as a suggestion.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Callable, Iterable, Sequence
 from difflib import SequenceMatcher, get_close_matches
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 from ros2_command.untyped import Untyped
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from ros2_command.graph import Graph
 
 _PART = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -24,6 +25,7 @@ NOBODY = (
     "the same?"
 )
 Entries = list[tuple[str, list[str]]]
+_ENDS = ("", "Service")
 _EXAMPLES = {
     "msg": "std_msgs/msg/Float32",
     "srv": "std_srvs/srv/Trigger",
@@ -118,22 +120,23 @@ def did_you_mean(word: str, names: Iterable[str], otherwise: str = "") -> str:
     return f"Did you mean '{name}'?" if name else otherwise
 
 
-def pick(typed: str, entries: Entries, complaint: str) -> tuple[str, list[str]]:
-    """Return the entry of a name, with or without its leading slash.
+def types_of(typed: str, entries: Entries, complaint: str, silent: bool = False) -> list[str]:
+    """Return the types of a name, which has to be typed in full, as the original wants it.
 
     Args:
         typed: The name as typed.
         entries: Names with their types.
         complaint: The first line of the error.
+        silent: Whether the original says nothing, so that the line is a note.
 
     Raises:
         CommandError: If there is none; the nearest name is suggested.
     """
     found = dict(entries)
-    name = absolute(typed)
-    if name not in found:
-        raise CommandError(complaint, suggestion(name, found))
-    return name, found[name]
+    if typed not in found:
+        lines = (complaint, suggestion(typed, found))
+        raise CommandError(*(("", *lines) if silent else lines))
+    return found[typed]
 
 
 def of_type(entries: Entries, type_name: str, hidden: bool) -> list[str]:
@@ -184,14 +187,27 @@ def find_type(name: str, kind: str) -> Untyped | None:
         module = import_module(f"{parts[0]}.{parts[1]}")
     except ImportError:
         return None
-    found = getattr(module, parts[2], None)
+    found = getattr(module, parts[2], None) or _hidden_class(module, parts[2])
     return found if isinstance(found, type) else None
+
+
+def _hidden_class(module: ModuleType, name: str) -> Untyped | None:
+    """Return the class of what an action has on its hidden topics and services, or None.
+
+    The module has `Fibonacci` only; the graph also tells of `Fibonacci_FeedbackMessage`, which is
+    `Fibonacci.Impl.FeedbackMessage`, and of the service `Fibonacci_SendGoal`.
+    """
+    whole, _, part = name.rpartition("_")
+    action = getattr(module, whole, None)
+    places = ((action, part), *((getattr(action, "Impl", None), f"{part}{end}") for end in _ENDS))
+    return next(
+        (getattr(place, member) for place, member in places if hasattr(place, member)), None
+    )
 
 
 def full_type(name: str, kind: str) -> str:
     """Return a type's name in its long form, `pkg/kind/Name`."""
-    parts = name.split("/")
-    return f"{parts[0]}/{kind}/{parts[-1]}"
+    return name.replace("/", f"/{kind}/") if name.count("/") == 1 else name
 
 
 def type_class(name: str, kind: str) -> Untyped:
@@ -214,59 +230,86 @@ def type_class(name: str, kind: str) -> Untyped:
 
 
 def type_hint(name: str, kind: str) -> str:
-    """Return a line with the nearest type of a kind, or with how a type is written."""
-    from ros2_command.packages import all_interfaces
+    """Return a line with the nearest type of a kind, or with what else is wrong with a name."""
+    from ros2_command.packages import all_interfaces, all_packages
 
     how = f"A type is written like {_EXAMPLES[kind]}."
     try:
         names = [one.name for one in all_interfaces() if one.kind == kind]
+        package = full_type(name, kind).split("/")[0]
+        if name.count("/") in (1, 2) and package not in all_packages():
+            how = _not_sourced(package)
     except CommandError:
         return how
     return did_you_mean(name, names, how)
+
+
+def _not_sourced(package: str) -> str:
+    return (
+        f"This terminal knows no package '{package}'. If it is in a workspace of yours, build "
+        "that, and run `source install/setup.bash` there, in this terminal."
+    )
+
+
+def class_in_graph(name: str, kind: str, owner: str) -> Untyped:
+    """Return the class of a type that the graph tells of.
+
+    Args:
+        name: The type, `pkg/kind/Name`.
+        kind: What it has to be.
+        owner: What carries the type, for the note; empty if somebody has typed it.
+
+    Raises:
+        CommandError: If this terminal cannot load it.
+    """
+    word, mark = _KINDS[kind]
+    found = find_type(name, kind)
+    if found is None or not hasattr(found, mark):
+        carried = f"{owner} carries that type, and this terminal cannot load it."
+        why = [carried, _not_sourced(name.split("/")[0])] if owner else [type_hint(name, kind)]
+        raise CommandError(f"The {word} type '{name}' is invalid", *why)
+    return found
 
 
 def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
     """Return the message class of a topic: the one that is given, or the one of the graph.
 
     Raises:
-        CommandError: If it cannot be known, or does not exist, or nobody publishes it.
+        CommandError: If it cannot be known, or does not exist.
     """
     name = absolute(typed)
     types = dict(graph.topics()).get(name, [])
-    if type_name is None:
-        if not types:
-            print(f"WARNING: topic [{typed}] does not appear to be published yet")
+    if type_name is not None:
+        found = type_class(type_name, "msg")
+        if types and (full := full_type(type_name, "msg")) not in types:
             raise CommandError(
-                "Could not determine the type for the passed topic",
-                suggestion(name, dict(graph.topics())),
+                "",
+                f"The topic '{typed}' carries {show_types(types)}, not {full}",
+                "Messages of another type are never received. Leave the type out, or correct it.",
             )
-        if len(types) > 1:
-            raise CommandError(
-                f"Cannot echo topic '{typed}', as it contains more than one type: "
-                f"{show_types(types)}",
-                "Give the type that you want after the topic.",
-            )
-        type_name = types[0]
-    found = type_class(type_name, "msg")
-    full = full_type(type_name, "msg")
-    if types and full not in types:
+        return found
+    if not types:
+        print(f"WARNING: topic [{typed}] does not appear to be published yet")
         raise CommandError(
-            f"The topic '{typed}' carries {show_types(types)}, not {full}",
-            "Messages of another type are never received. Leave the type out, or correct it.",
+            "Could not determine the type for the passed topic",
+            suggestion(name, dict(graph.topics())),
         )
-    return found
+    if len(types) > 1:
+        raise CommandError(
+            f"Cannot echo topic '{typed}', as it contains more than one type: {show_types(types)}",
+            "Give the type that you want after the topic.",
+        )
+    return class_in_graph(types[0], "msg", f"The topic '{typed}'")
 
 
-def find_node(typed: str, nodes: Sequence[str], complaint: str) -> str:
-    """Return the full name of a node.
+def check_node(name: str, nodes: Sequence[str], complaint: str) -> None:
+    """Refuse the full name of a node that is not there.
 
     Raises:
-        CommandError: If there is none of that name; the nearest one is suggested.
+        CommandError: With the nearest name.
     """
-    name = absolute(typed)
     if name not in nodes:
         raise CommandError(complaint, suggestion(name, list(nodes)))
-    return name
 
 
 def wait_for_server(
@@ -294,8 +337,9 @@ def wait_for_server(
     if name in found:
         others = [one for one in found[name] if one != asked]
         raise CommandError(
+            "",
             f"The {what} '{name}' has the type {show_types(others)}, not {asked}",
             "A request with another type is never answered.",
         )
-    print(f"No node offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
+    note(f"No node offers '{name}'. {suggestion(name, found)}")
     graph.spin_until(ready)

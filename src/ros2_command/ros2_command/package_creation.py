@@ -1,4 +1,4 @@
-"""Create an ament_python package: check what was asked for, and write the files.
+"""Create a package: check what was asked for, and write the files.
 
 The files are those of `data/package`, with values in the place of their names.
 """
@@ -21,7 +21,7 @@ from pathlib import Path
 from string import Template
 from xml.sax.saxutils import escape
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 
 _DATA = files("ros2_command") / "data"
 _INDEX = "share/ament_index/resource_index/packages"
@@ -48,11 +48,10 @@ def create(args: Namespace) -> None:
         print("\n".join(["Supported licenses:", *LICENSES]))
         return
     _check_place(Path(args.destination_directory), args.package_name)
-    if args.build_type != "ament_python":
+    if args.build_type == "cmake":
         raise CommandError(
-            f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages, "
-            "since ROS 2 from pip has no C++ libraries to build others with.",
-            f"Try:  {_as_python_package(args.typed_words)}",
+            "Build type 'cmake' is left out here: this `ros2` makes packages of the types "
+            "ament_python and ament_cmake.",
         )
     _check_names(args)
     _complete(args)
@@ -64,6 +63,17 @@ def create(args: Namespace) -> None:
         raise CommandError(f"Failed to create {error.filename}: {error.strerror}") from None
     if args.license not in LICENSES:
         _warn_about_license(args.license)
+    if not _is_python(args):
+        note(
+            "This package is for C++, or for messages of your own. A package of Python nodes is "
+            f"made with:  {_as_python_package(args.typed_words)}",
+            "ROS 2 from pip builds packages of Python nodes. It has no rclcpp, so nodes in C++ "
+            "need a full ROS 2; packages of messages need CMake and a compiler.",
+        )
+
+
+def _is_python(args: Namespace) -> bool:
+    return bool(args.build_type == "ament_python")
 
 
 def _as_python_package(words: Sequence[str]) -> str:
@@ -84,10 +94,9 @@ def _check_place(destination: Path, name: str) -> None:
     shown = target if os.path.isabs(target) or destination != Path() else f"./{name}"
     if os.path.lexists(target):
         raise CommandError(
-            "\nAborted!",
-            f"The directory already exists: {shown}",
+            f"\nAborted!\nThe directory already exists: {shown}\n"
             "Either remove the directory or choose a different destination directory or "
-            "package name",
+            "package name"
         )
     place = destination.absolute()
     for parent in [place, *place.parents]:
@@ -110,7 +119,7 @@ def _check_names(args: Namespace) -> None:
     Raises:
         CommandError: With the reason.
     """
-    if args.package_name == "test":
+    if args.package_name == "test" and _is_python(args):
         raise CommandError(
             "Aborted since 'ament_python' packages can't be named 'test'. "
             "Please choose a different package name."
@@ -118,9 +127,7 @@ def _check_names(args: Namespace) -> None:
     _refuse("a package", args.package_name, _why_no_package(args.package_name))
     for kind, name in (("a node", args.node_name), ("a library", args.library_name)):
         if name is not None:
-            reserved = "names that begin with two underscores are reserved for Python"
-            reason = _not_importable(name) or (reserved if name.startswith("__") else "")
-            _refuse(kind, name, reason)
+            _refuse(kind, name, (_no_module if _is_python(args) else _no_target)(name))
     for one in args.dependencies:
         if not _DEPENDENCY.fullmatch(one):
             raise CommandError(f"Aborted! '{one}' cannot be the name of a package to depend on.")
@@ -161,6 +168,19 @@ def _not_importable(name: str) -> str:
     if not name.isidentifier():
         return "it may contain only letters, digits and '_', and must not begin with a digit"
     return ""
+
+
+def _no_module(name: str) -> str:
+    """Return why a module in a package cannot have a name, or an empty string."""
+    reserved = "names that begin with two underscores are reserved for Python"
+    return _not_importable(name) or (reserved if name.startswith("__") else "")
+
+
+def _no_target(name: str) -> str:
+    """Return why a program or a library of C++ cannot have a name, or an empty string."""
+    if re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
+        return ""
+    return "it may contain only letters, digits and '_', and begins with a letter"
 
 
 def _refuse(kind: str, name: str, reason: str) -> None:
@@ -206,7 +226,7 @@ def _announce(args: Namespace) -> None:
     print("description:", args.description)
     print("maintainer:", [f"{args.maintainer_name} <{args.maintainer_email}>"])
     print("licenses:", [args.license])
-    print("build type: ament_python")
+    print("build type:", args.build_type)
     print("dependencies:", args.dependencies)
     if args.node_name:
         print("node_name:", args.node_name)
@@ -216,13 +236,17 @@ def _announce(args: Namespace) -> None:
 
 def _files(args: Namespace) -> Iterator[tuple[str, str | None]]:
     """Yield paths with their content in the order of making; None is a folder."""
-    name, node, library = args.package_name, args.node_name, args.library_name
-    root = os.path.join(args.destination_directory, name)
-    source = os.path.join(root, name)
+    root = os.path.join(args.destination_directory, args.package_name)
     yield root, None
     yield os.path.join(root, "package.xml"), _package_xml(args)
     if args.license in LICENSES:
         yield os.path.join(root, "LICENSE"), (_DATA / "licenses" / args.license).read_text("utf-8")
+    yield from (_python_files if _is_python(args) else _cpp_files)(args, root)
+
+
+def _python_files(args: Namespace, root: str) -> Iterator[tuple[str, str | None]]:
+    name, node, library = args.package_name, args.node_name, args.library_name
+    source = os.path.join(root, name)
     print("creating source folder")
     yield source, None
     yield os.path.join(root, "setup.py"), _setup_py(args)
@@ -240,8 +264,67 @@ def _files(args: Namespace) -> Iterator[tuple[str, str | None]]:
         yield os.path.join(source, library, "__init__.py"), ""
 
 
+def _cpp_files(args: Namespace, root: str) -> Iterator[tuple[str, str | None]]:
+    name, node, library = args.package_name, args.node_name, args.library_name
+    source, include = os.path.join(root, "src"), os.path.join(root, "include", name)
+    print("creating source and include folder")
+    yield source, None
+    yield include, None
+    yield os.path.join(root, "CMakeLists.txt"), _cmake_lists(args)
+    if node:
+        yield os.path.join(source, f"{node}.cpp"), _filled("node.cpp", name=name)
+    if library:
+        words = {
+            "name": name,
+            "library": library,
+            "type": library.replace("_", " ").title().replace(" ", ""),
+            "macro": name.upper(),
+            "guard": f"{name}__{library}".upper(),
+        }
+        for path, template in (
+            (os.path.join(include, f"{library}.hpp"), "library.hpp"),
+            (os.path.join(source, f"{library}.cpp"), "library.cpp"),
+            (os.path.join(include, "visibility_control.h"), "visibility_control.h"),
+        ):
+            yield path, _filled(template, **words)
+
+
+def _cmake_lists(args: Namespace) -> str:
+    """Return how the package is built: what it needs, its library, its program, its tests."""
+    name, node, library = args.package_name, args.node_name, args.library_name
+    found = [f"find_package({one} REQUIRED)" for one in args.dependencies] or [
+        "# Name each further package that is needed, as here:",
+        "# find_package(<dependency> REQUIRED)",
+    ]
+    parts = {"library": "", "node": "", "exports": ""}
+    if library:
+        found.insert(0, "find_package(ament_cmake_ros REQUIRED)")
+        depends = _depends(library, args.dependencies)
+        words = {"name": name, "library": library, "macro": name.upper(), "depends": depends}
+        parts["library"] = _filled("CMakeLists.library", **words)
+        parts["exports"] = _filled("CMakeLists.exports", library=library)
+    if node:
+        features = f"target_compile_features({node} PUBLIC c_std_99 cxx_std_17)"
+        alone = f"{features}  # C99 and C++17 at least\n{_depends(node, args.dependencies)}"
+        needs = f"target_link_libraries({node} {library})\n" if library else alone
+        parts["node"] = _filled("CMakeLists.node", node=node, needs=needs)
+    return _filled("CMakeLists.txt", name=name, found="\n".join(found), **parts)
+
+
+def _depends(target: str, dependencies: Sequence[str]) -> str:
+    names = "".join(f'  "{one}"\n' for one in dependencies)
+    return f"ament_target_dependencies(\n  {target}\n{names})\n" if names else ""
+
+
 def _package_xml(args: Namespace) -> str:
-    depends = "".join(f"  <depend>{escape(one)}</depend>\n" for one in args.dependencies)
+    tool = "ament_cmake_ros" if args.library_name else "ament_cmake"
+    python_tests = ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest")
+    tests = python_tests if _is_python(args) else ("ament_lint_auto", "ament_lint_common")
+    groups = [
+        _tags("buildtool_depend", () if _is_python(args) else (tool,)),
+        _tags("depend", args.dependencies),
+        _tags("test_depend", tests),
+    ]
     return _filled(
         "package.xml",
         format=args.package_format,
@@ -250,14 +333,19 @@ def _package_xml(args: Namespace) -> str:
         maintainer=escape(args.maintainer_name),
         email=escape(args.maintainer_email, {'"': "&quot;"}),
         license=escape(args.license),
-        depends=f"{depends}\n" if depends else "",
+        depends="\n".join(filter(None, groups)),
+        type=args.build_type,
     )
+
+
+def _tags(name: str, values: Sequence[str]) -> str:
+    return "".join(f"  <{name}>{escape(value)}</{name}>\n" for value in values)
 
 
 def _setup_py(args: Namespace) -> str:
     """Return the build script, with texts as Python would show them, so quotes cannot break it.
 
-    What tests require is an extra, as in newer versions of the original. Jazzy's own writes
+    What tests require is an extra, as newer releases of the original write it. Before, it was
     `tests_require`, which draws a warning from setuptools 72 and newer.
     """
     name, node = args.package_name, args.node_name

@@ -82,6 +82,7 @@ def executables(prefix: Path, name: str) -> list[Path]:
 INTERFACES = Path("share", "ament_index", "resource_index", "rosidl_interfaces")
 #: The kinds in the order in which they are listed, with their headings.
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+_SUFFIXES = tuple(f".{kind}" for kind in KINDS)
 
 
 @dataclass(frozen=True, order=True)
@@ -131,13 +132,15 @@ def all_interfaces() -> list[Interface]:
 
 
 def find_interface(name: str) -> Interface:
-    """Find one interface by its full name.
+    """Find one interface by its full name, or by that with the suffix of its file.
 
     Raises:
         CommandError: If the name has another form, or there is none; the nearest is suggested.
     """
     found = {one.name: one for one in all_interfaces()}
     parts = name.split("/")
+    if name.endswith(_SUFFIXES) and (with_suffix := found.get(name.rpartition(".")[0])):
+        return with_suffix
     if len(parts) != 3 or not all(parts):
         short = [one for one in found if len(parts) == 2 and one.split("/")[::2] == parts]
         raise CommandError(
@@ -196,7 +199,7 @@ def _expand(
     interface: Interface, known: dict[str, Interface], comments: str, keep: bool, level: int
 ) -> list[str]:
     lines = []
-    for line in interface.path.read_text(encoding="utf-8").splitlines():
+    for line in map(str.rstrip, interface.path.read_text(encoding="utf-8").splitlines()):
         text = line if keep else _without_comment(line)
         if not keep and not text:
             continue
@@ -207,30 +210,13 @@ def _expand(
     return lines
 
 
-def whole_definition(name: str) -> str:
-    """Return a message's definition and those of all messages in it, as a bag holds them.
-
-    Raises:
-        CommandError: If it, or one that it is made of, is not installed as a `.msg` file.
-    """
-    known = {one.name: one for one in all_interfaces()}
-    names, texts = [name], list[str]()
-    for one in names:  # grows while it is read
-        if one not in known or known[one].kind != "msg":
-            raise CommandError(f"The definition of {one} is not installed")
-        text = known[one].path.read_text(encoding="utf-8")
-        inner = [nested_type(line, known[one].package) for line in text.splitlines()]
-        names += [found for found in dict.fromkeys(inner) if found and found not in names]
-        title = f"{'=' * 80}\nMSG: {one.replace('/msg/', '/')}\n" if texts else ""
-        texts.append(title + text.rstrip("\n") + "\n")
-    return "".join(texts)
-
-
 def _without_comment(line: str) -> str:
-    quoted = False
-    for place, char in enumerate(line):
-        if char in "\"'":
-            quoted = not quoted
-        elif char == "#" and not quoted:
-            return line[:place].rstrip()
-    return line.rstrip()
+    """Return a line as the original shows it where comments are left out; empty if it has none.
+
+    It leaves the mark of a comment at a line's end, and a comment that is indented or says nothing.
+    """
+    mark = line.find("#")
+    comment = line[mark:].lstrip("#").strip() if mark >= 0 else ""
+    if not comment or (mark and not line[:mark].strip()):
+        return line
+    return line[: line.index(comment, mark) - 1].strip() if mark else ""

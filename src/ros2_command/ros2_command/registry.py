@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import Any, NoReturn
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 from ros2_command.names import did_you_mean
 
 #: Declares one argument, or several that go together, to the parser of a verb.
@@ -68,8 +69,10 @@ COMMANDS = {
     "action": "Various action related sub-commands",
     "bag": "Various rosbag related sub-commands",
     "completion": "Output what a shell needs to complete this command",
+    "daemon": "Various daemon related sub-commands",
     "doctor": "Check ROS setup and other potential issues",
     "interface": "Show information about ROS interfaces",
+    "launch": "Run a launch file",
     "node": "Various node related sub-commands",
     "param": "Various param related sub-commands",
     "pkg": "Various package related sub-commands",
@@ -86,7 +89,7 @@ LEFT_OUT_VERBS = {
 }
 #: Commands of the full ROS 2 that are not in this subset.
 LEFT_OUT = (
-    *("component", "control", "daemon", "extension_points", "extensions", "launch", "lifecycle"),
+    *("component", "control", "extension_points", "extensions", "lifecycle"),
     *("multicast", "plugin", "security", "test", "trace"),
 )
 WHERE_TO_GET_THE_WHOLE = (
@@ -103,7 +106,7 @@ def verbs_of(command: str) -> Mapping[str, Verb]:
     return verbs
 
 
-def what_is_left_out(command: str, verb: str | None = None) -> str | None:
+def what_is_left_out(command: str, verb: str | None = None) -> tuple[str, str] | None:
     """Return what to say of a command or verb of the full ROS 2 only, None of another."""
     if command in LEFT_OUT:
         name = command
@@ -112,8 +115,8 @@ def what_is_left_out(command: str, verb: str | None = None) -> str | None:
     else:
         return None
     return (
-        f"'ros2 {name}' is left out here: this `ros2` is a subset for ROS 2 installed with pip.\n"
-        f"{WHERE_TO_GET_THE_WHOLE}"
+        f"'ros2 {name}' is left out here: this `ros2` is a subset for ROS 2 installed with pip.",
+        WHERE_TO_GET_THE_WHOLE,
     )
 
 
@@ -123,15 +126,27 @@ _CHOICE = re.compile(r"invalid choice: '?(?P<word>.*?)'? \(choose from (?P<names
 
 
 class Parser(argparse.ArgumentParser):
-    """Parse, and suggest the nearest choice where a word is none of them."""
+    """Parse, and suggest the nearest choice where a word is none of them.
+
+    Attributes:
+        left_out: What to say below the help of what this subset has not.
+    """
+
+    left_out = ""
 
     def error(self, message: str) -> NoReturn:
         """Print the usage, the message and perhaps a suggestion, and end with exit code 2."""
+        self.print_usage(sys.stderr)
+        print(f"{self.prog}: error: {message}", file=sys.stderr)
         if found := _CHOICE.search(message):
             names = [name.strip(" '") for name in found["names"].split(",")]
-            hint = did_you_mean(found["word"], names)
-            message += f"\n{hint}" if hint else ""
-        super().error(message)
+            note(did_you_mean(found["word"], names))
+        self.exit(2)
+
+    def print_help(self, file: Any = None) -> None:  # noqa: ANN401 - as argparse has it
+        """Print the help as the original has it, and what is left out as a note."""
+        super().print_help(file)
+        note(self.left_out)
 
 
 class LeftOut(argparse.Action):
@@ -160,8 +175,10 @@ def leave_out(reason: str, *options: str) -> Argument:
         for names in options:
             extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
             parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
-        start = f"{parser.epilog}, " if parser.epilog else "Left out of this subset: "
-        parser.epilog = start + ", ".join(names.rpartition(",")[2] for names in options)
+        before = getattr(parser, "left_out", "")
+        more = ", ".join(names.rpartition(",")[2] for names in options)
+        start = f"{before}, " if before else "Left out of this subset: "
+        setattr(parser, "left_out", start + more)  # noqa: B010 - one of `Parser` has it
 
     return refuse
 
@@ -193,7 +210,7 @@ def _sub(parser: Parser, call: str, entries: Mapping[str, str], dest: str) -> di
 
 def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
     if command in LEFT_OUT_VERBS:
-        parser.epilog = f"Left out of this subset: {', '.join(LEFT_OUT_VERBS[command])}"
+        parser.left_out = f"Left out of this subset: {', '.join(LEFT_OUT_VERBS[command])}"
     verbs = verbs_of(command)
     if "" in verbs:
         verbs[""].add_arguments(parser)
@@ -218,8 +235,10 @@ def build(argv: Sequence[str]) -> Parser:
         prog="ros2",
         description="ros2 is an extensible command-line tool for ROS 2.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="This is a subset for ROS 2 installed with pip. Left out:\n"
-        f"  {', '.join(LEFT_OUT)}\n{WHERE_TO_GET_THE_WHOLE}",
+    )
+    parser.left_out = (
+        "This is a subset for ROS 2 installed with pip. Left out:\n"
+        f"  {', '.join(LEFT_OUT)}\n{WHERE_TO_GET_THE_WHOLE}"
     )
     parser.add_argument(
         "--use-python-default-buffering",

@@ -20,7 +20,8 @@ _NOT_FROM_PIP = (
     *("turtlesim", "cv_bridge", "image_transport", "image_geometry", "message_filters", "tf2_"),
     *("tf_transformations", "rosbag2_", "demo_nodes_", "action_tutorials", "nav2_", "moveit"),
     *("gazebo", "ros_gz", "control_msgs", "controller_", "robot_", "laser_geometry", "pcl_"),
-    *("example_interfaces", "tutorial_interfaces", "launch", "launch_", "ros2_control", "slam_"),
+    *("example_interfaces", "tutorial_interfaces", "launch_testing", "launch_testing_"),
+    *("launch_pytest", "ros2_control", "slam_"),
     *("rqt_", "rviz", "usb_cam", "joint_state_publisher", "xacro", "urdf", "rclcpp", "examples_"),
 )
 _PREFIXES = tuple(name for name in _NOT_FROM_PIP if name.endswith("_"))

@@ -754,10 +754,11 @@ _CREATE_RULES = (
         "A folder {1} already exists, probably from the first time you ran this command.",
         "Nothing was changed. If that folder is your package, continue with it; if not, rename "
         "it first."),
-    Row("build-type", _CREATE, r"is left out here",
+    Row("build-type", _CREATE, r"^build type: (?:ament_)?cmake|Build type 'cmake' is left out",
         "Without `--build-type ament_python`, `ros2 pkg create` creates a C++ package, but your "
         "nodes are in Python.",
-        "Write that option; the rest of the command stays the same."),
+        "Remove the folder, and type the command again with that option. Only a package of your "
+        "own messages needs no such option."),
     Row("package-name", _CREATE, r"cannot be the name of a package(?! to depend on)",
         "A Python package is imported by its name, so the name follows Python's rules:",
         "lower-case letters, digits and `_`, beginning with a letter."),
@@ -1016,13 +1017,19 @@ def _no_such_executable(package: Package, name: str) -> Diagnosis:
     )
 
 
+def _lost_its_link(seen: Situation, package: Package) -> bool:
+    """Return whether a package is installed as a link, and what was started does not find it."""
+    return bool(
+        package.installed
+        and package.installed.linked
+        and package.name.replace("_", "-")
+        in "".join(re.findall(r"PackageNotFoundError: No package metadata .+", seen.error))
+    )
+
+
 def _linked_since(seen: Situation, call: Call, _: Found) -> bool:
     """Return whether a link has replaced the copy that this terminal was told of."""
-    return any(
-        package.installed and package.installed.linked and package.name.replace("_", "-") in lost
-        for package, _ in _asked_for(seen, call)
-        for lost in re.findall(r"PackageNotFoundError: No package metadata .+", seen.error)
-    )
+    return any(_lost_its_link(seen, package) for package, _ in _asked_for(seen, call))
 
 
 def _is_about_loading(seen: Situation, _: Package) -> bool:
@@ -1168,6 +1175,8 @@ _LOADING_RULES = (
         "`which python3` shows which Python a terminal uses. Open a terminal in "
         "JupyterLab, or run `./environment/course shell` in the folder of the course.",
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error),
+    # A build that fails leaves half of a link, and no terminal can know the rest.
+    PackageRule(_RUN, (_SETUP_UNREADABLE, _refused_flaw), when=_lost_its_link),
     Row("not-sourced", _RUN, "",
         "The package is now installed as a symbolic link, but this terminal sourced the "
         "workspace before that build.",

@@ -267,3 +267,6 @@ class LimitHost(Host, Sender, Protocol):
 
 class AllPorts(Host, Observer, Guide, Sender, Starter, Spinner, Protocol):
     """Combine what a node's context leads to: hooks and programs find the session through it."""
+
+    def logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
+        """Record a log line; see `logs.LogHost`."""

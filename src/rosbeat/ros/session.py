@@ -30,6 +30,7 @@ from rosbeat.ros.errors import (
 )
 from rosbeat.ros.graph import poll, wait_for_nodes
 from rosbeat.ros.launch import Launch, Maker, Start, build_in, checked
+from rosbeat.ros.launching import SimulatedLaunch, check_launch
 from rosbeat.ros.processes import Process
 from rosbeat.ros.session_core import SessionCore
 from rosbeat.ros.simulated_program import SimulatedProgram
@@ -219,6 +220,46 @@ class Session:
             if self.is_live:
                 raise session_is_live("spawn")
             made = SimulatedProgram(self._core, program, arguments)
+            made.start()
+        return made
+
+    @called_as('ros.launch("greenhouse.launch.py")')
+    def launch(
+        self,
+        source: Any,  # noqa: ANN401 - unchecked input
+        arguments: Mapping[str, Any] | None = None,
+    ) -> SimulatedLaunch:
+        """Launch the nodes of a launch file in virtual time, as `ros2 launch` does.
+
+        Each node is a program that goes on whenever the session runs, with the parameters,
+        remappings and namespace of the launch file. Timers and event handlers of the launch file
+        count in virtual time.
+
+        Args:
+            source: The launch file in Python, XML or YAML, or a `LaunchDescription`.
+            arguments: The values of its arguments: `{"rate": 2.0}`.
+
+        Returns:
+            The launch, which is a program as those of `spawn`: `send_signal(signal.SIGINT)` ends
+            it with all its nodes. Its `programs` has those of the nodes.
+
+        Raises:
+            SessionError: If it cannot be launched, or the session is live.
+            ClosedSessionError: If the session has ended.
+        """
+        return self._launch(source, arguments or {}, lambda _: None)
+
+    def _launch(
+        self,
+        source: object,
+        arguments: Mapping[str, object],
+        on_start: Callable[[SimulatedProgram], None],
+    ) -> SimulatedLaunch:
+        with self._running("launch"):
+            if self.is_live:
+                raise session_is_live("launch")
+            check_launch()
+            made = SimulatedLaunch(self._core, source, arguments, on_start)
             made.start()
         return made
 

@@ -57,6 +57,7 @@ class SimulatedProgram:
         core: The state of the session.
         target: A file with a function `main`, or without one, or such a function.
         arguments: Command-line arguments after the program's name.
+        entry: The function of the file to call; by default `main`, if there is one.
 
     Attributes:
         name: The file's name without `.py`, or the function's module and name.
@@ -67,13 +68,21 @@ class SimulatedProgram:
         argv: Its command line, as in `sys.argv`.
         interrupt: The exception that a simulated Ctrl+C raises, to distinguish it from a real one.
         failure: The exception that left `main`, and its record; None if there was none.
+        has_begun: Whether any of its code has run.
+        on_end: Called with the exit code when it has ended.
 
     Raises:
         SessionError: If `target` is neither a file nor a function.
     """
 
-    def __init__(self, core: AllPorts, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
-        self._target = _checked(target)
+    def __init__(
+        self,
+        core: AllPorts,
+        target: Any,  # noqa: ANN401 - unchecked input
+        arguments: Sequence[str],
+        entry: str | None = None,
+    ) -> None:
+        self._target, self._entry = _checked(target), entry
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None
         self.stderr = ""
@@ -83,6 +92,8 @@ class SimulatedProgram:
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
         self.failure: tuple[Fault, BaseException] | None = None
+        self.on_end: Callable[[int], None] = lambda _: None
+        self.has_begun = False
         self._has_handlers = False  # those of rclpy
         self._depth = 0  # how many times it was entered and not left
         self.argv = [self.name, *arguments]
@@ -148,10 +159,13 @@ class SimulatedProgram:
 
     def start(self) -> None:
         """Run it until it waits for the first time."""
-        virtual = self.core.virtual
+        self.begin()
+        self.core.virtual.run_until(self.core.virtual.now)
+
+    def begin(self) -> None:
+        """Run it as soon as the session goes on."""
         self._main = Call(self._process)
-        virtual.start_greenlet(self._main, self._run)
-        virtual.run_until(virtual.now)
+        self.core.virtual.start_greenlet(self._main, self._run)
 
     def enter(self) -> None:
         """Put the program's own `sys.argv`, context and folder in place."""
@@ -207,6 +221,7 @@ class SimulatedProgram:
 
     def _run(self) -> None:
         error: BaseException | None = None
+        self.has_begun = True
         try:
             try:
                 code = self._load()()
@@ -243,7 +258,7 @@ class SimulatedProgram:
             found: Callable[[], Any] = self._target
             return found
         linecache.checkcache(str(self._target))
-        if _is_script(self._target):
+        if self._entry is None and _is_script(self._target):
             return self._run_script
         spec = spec_from_file_location(self._module, self._target)
         assert spec is not None
@@ -255,7 +270,7 @@ class SimulatedProgram:
         finally:
             self._take_own_modules()
             sys.modules.update(hidden)
-        main: Callable[[], Any] = module.main
+        main: Callable[[], Any] = getattr(module, self._entry or "main")
         return main
 
     def _run_script(self) -> None:
@@ -340,6 +355,7 @@ class SimulatedProgram:
         for context in list(self.contexts):
             _shut_down(context)
         self.core.console.program_ended(self)
+        self.on_end(code)
 
 
 def _shut_down(context: Context) -> None:

@@ -48,7 +48,7 @@ def test_send_goal(rich):
 
 
 def test_a_rejected_goal(rich):
-    out = rich.out("action", "send_goal", *FIBONACCI, "{order: -1}", code=1)
+    out = rich.out("action", "send_goal", *FIBONACCI, "{order: -1}")
     assert out.endswith("Goal was rejected.\n")
 
 
@@ -62,20 +62,25 @@ def test_ctrl_c_cancels_the_goal(rich):
 
 
 def test_what_is_not_there(rich):
-    said = "Unknown action '/house/fibo'\nDid you mean '/house/fibonacci'?\n"
+    said = "# Unknown action '/house/fibo'\n# Did you mean '/house/fibonacci'?\n"
     assert rich.error("action", "type", "/house/fibo") == said
     done = rich("action", "info", "/house/fibo")
     assert done.stdout == "Action: /house/fibo\nAction clients: 0\nAction servers: 0\n"
-    assert done.stderr == "Did you mean '/house/fibonacci'?\n"
+    assert done.stderr == "# Did you mean '/house/fibonacci'?\n"
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ((FIBONACCI[0], "test_msgs/action/Fibonaci"), "action type is invalid\nDid you mean"),
+        ((FIBONACCI[0], "test_msgs/action/Fibonaci"), "action type is invalid\n# Did you mean"),
         ((FIBONACCI[0], "std_msgs/msg/Bool"), "The passed action type is invalid"),
         ((FIBONACCI[0], "test_msgs/action/NestedMessage"), "has the type [test_msgs/action/Fib"),
         ((*FIBONACCI, "{ordr: 1}"), "Did you mean 'order'?"),
+        (
+            (*FIBONACCI, "{order: x}"),
+            "Failed to populate message fields: "
+            """ValueError("invalid literal for int() with base 10: 'x'")""",
+        ),
         (("a b", FIBONACCI[1]), "action name 'a b' is invalid"),
     ],
 )

@@ -1,3 +1,4 @@
+import os
 import re
 import signal
 import time
@@ -7,12 +8,13 @@ import pytest
 
 from rosbeat.bags import Bag
 
+DISTRO = os.environ.get("ROS_DISTRO", "jazzy")
 INFO = """\
 
-Files:             run.mcap
+Files:             run_0.mcap
 Bag size:          <size>
 Storage id:        mcap
-ROS Distro:        rosbags
+ROS Distro:        {distro}
 Duration:          <time>s
 Start:             <date>
 End:               <date>
@@ -67,8 +69,10 @@ def test_record_and_info(rich, tmp_path):
     shown = re.sub(
         r"Bag size:          .*", "Bag size:          <size>", re.sub(date, "<date>", shown)
     )
-    assert shown == INFO.format(count=len(values))
+    assert shown == INFO.format(count=len(values), distro=DISTRO)
     assert rich.out("bag", "info", "-t", folder) == "/house/number\n"
+    alone = rich.out("bag", "info", folder / "run_0.mcap")
+    assert f"ROS Distro:        {DISTRO}\n" in alone
 
 
 @pytest.mark.ros
@@ -80,9 +84,29 @@ def test_record_all_as_sqlite(rich, tmp_path):
         assert ended(process)[0] == 0
     bag = Bag(folder)
     assert bag.storage == "sqlite3"
+    assert (folder / "run_0.db3").is_file()
     assert bag.topics == ("/house/bounded", "/house/number", "/house/point")
     assert bag.start < 3600  # simulated time begins at 0
     assert any(bag.counts.values())
+
+
+@pytest.mark.ros
+def test_what_actions_and_services_have_on_topics_is_recorded(rich, tmp_path):
+    topics = ("/house/enable/_service_event", "/house/fibonacci/_action/feedback")
+    words = ("--include-hidden-topics", "--topics", *topics)
+    with rich.running("bag", "record", "-o", tmp_path / "run", *words) as process:
+        for _ in topics:
+            while "Subscribed to topic" not in (line := process.stderr.readline()):
+                assert line
+        rich("service", "call", "/house/enable", "std_srvs/srv/SetBool")
+        rich("action", "send_goal", "/house/fibonacci", "test_msgs/action/Fibonacci", "{order: 5}")
+        code, _, error = ended(process)
+    assert (code, "cannot be recorded" in error) == (0, False)
+    bag = Bag(tmp_path / "run")
+    assert set(bag.topics) == set(topics)
+    assert bag.counts[topics[0]] == 2
+    (last,) = bag.messages(topics[1])[-1:]
+    assert list(last.data["feedback"]["sequence"]) == [0, 1, 1, 2, 3, 5]
 
 
 @pytest.mark.ros
@@ -113,7 +137,10 @@ def test_play_tells_the_time_and_ends_at_ctrl_c(rich, tmp_path):
     with rich.running("bag", "play", tmp_path / "run", *words) as process:
         assert rich.out("topic", "echo", "--once", "/again", NUMBER).startswith("data: ")
         assert "/clock: rosgraph_msgs/msg/Clock" in rich.out("node", "info", "/rosbag2_player")
-        assert ended(process) == (0, "", "")
+        code, out, error = ended(process)
+    assert (code, out) == (0, "")
+    said = [line.partition("[rosbag2_player]: ")[2] for line in error.splitlines()]
+    assert said == ["Set rate to 1", "Playback until timestamp: -1"]
 
 
 @pytest.mark.ros
@@ -123,7 +150,7 @@ def test_nothing_comes(rich, tmp_path):
         time.sleep(1.5)
         code, _, error = ended(process)
     assert (code, error.splitlines()[-1]) == (
-        0, "No message was recorded. Did you mean '/house/number'?",
+        0, "# No message was recorded. Did you mean '/house/number'?",
     )  # fmt: skip
     assert "Messages:          0\n" in rich.out("bag", "info", tmp_path / "run")
 

@@ -1,20 +1,8 @@
 import pytest
 from ros2_command.packages import nested_type
 
-TEMPERATURE = """\
-std_msgs/Header header
-\tbuiltin_interfaces/Time stamp
-\t\tint32 sec
-\t\tuint32 nanosec
-\tstring frame_id
-float64 temperature
-float64 variance
-"""
-
 
 def test_show(ros2):
-    shown = ros2.out("interface", "show", "--no-comments", "sensor_msgs/msg/Temperature")
-    assert shown == TEMPERATURE
     everything = ros2.out("interface", "show", "--all-comments", "sensor_msgs/msg/Temperature")
     default = ros2.out("interface", "show", "-", stdin="sensor_msgs/msg/Temperature\n")
     assert "\t# " in everything
@@ -27,12 +15,12 @@ def test_show(ros2):
 def test_show_of_what_does_not_exist(ros2):
     assert ros2.error("interface", "show", "std_msgs/Float32") == (
         "Invalid name 'std_msgs/Float32'. Expected three parts separated by '/'\n"
-        "Did you mean 'std_msgs/msg/Float32'?\n"
+        "# Did you mean 'std_msgs/msg/Float32'?\n"
     )
     error = ros2.error("interface", "show", "std_msgs/msg/Flot32").splitlines()
     assert error[0].startswith("Could not find the interface '/")
     assert error[0].endswith("/share/std_msgs/msg/Flot32.idl'")
-    assert error[1] == "Did you mean 'std_msgs/msg/Float32'?"
+    assert error[1] == "# Did you mean 'std_msgs/msg/Float32'?"
     assert len(ros2.error("interface", "show", "std_msgs/msg/Nope").splitlines()) == 1
     assert ros2.error("interface", "show", "no_msgs/msg/X").startswith(
         "Unknown package 'no_msgs'\n"

@@ -1,5 +1,6 @@
 import ast
 import os
+import shutil
 import subprocess
 import sys
 from xml.etree import ElementTree
@@ -139,7 +140,7 @@ def test_a_second_time_is_refused(ros2, tmp_path):
         (("p", "--dependencies", "rclpy,"), "cannot be the name of a package"),
         (("p", "--destination-directory", "file"), "is a file"),
         (("p", "--destination-directory", "inner"), "is a package itself"),
-        (("p", "--build-type", "ament_cmake"), "left out here"),
+        (("p", "--build-type", "cmake"), "left out here"),
     ],
 )
 def test_what_cannot_work_is_refused_before_anything_is_made(ros2, tmp_path, words, said):
@@ -162,16 +163,89 @@ def test_what_cannot_work_is_refused_before_anything_is_made(ros2, tmp_path, wor
             "p --license MIT --description 'a b' --library-name=l",
         ),
         (
-            ("p", "--build-type", "cmake", "--maintainer-name", "ada", "--dependencies", "rclpy"),
-            "p --maintainer-name ada --dependencies rclpy",
+            ("p", "--build-type", "ament_cmake", "--maintainer-name", "ada", "--dependencies", "a"),
+            "p --maintainer-name ada --dependencies a",
         ),
         (("--build=ament_cmake", "p"), "p"),
     ],
 )
 def test_another_build_type_says_what_to_type_with_all_that_was_given(ros2, tmp_path, words, said):
-    error = ros2.error("pkg", "create", *words, cwd=tmp_path)
-    assert error.endswith(f"\nTry:  ros2 pkg create --build-type ament_python {said}\n")
-    assert not list(tmp_path.iterdir())
+    done = ros2("pkg", "create", *words, cwd=tmp_path)
+    assert "build type: ament_cmake\n" in done.stdout
+    assert f" made with:  ros2 pkg create --build-type ament_python {said}\n" in done.stderr
+    assert "no rclcpp" in done.stderr
+    assert all(line.startswith("# ") for line in done.stderr.splitlines())
+
+
+CPP_LOG = """\
+build type: ament_cmake
+dependencies: ['rclcpp']
+node_name: n
+library_name: my_lib
+creating folder ./p
+creating ./p/package.xml
+creating source and include folder
+creating folder ./p/src
+creating folder ./p/include/p
+creating ./p/CMakeLists.txt
+creating ./p/src/n.cpp
+creating ./p/include/p/my_lib.hpp
+creating ./p/src/my_lib.cpp
+creating ./p/include/p/visibility_control.h
+"""
+
+
+def commands(path):
+    """What CMake does: the lines of a file without its comments."""
+    lines = (line.split("#")[0].rstrip() for line in path.read_text().splitlines())
+    return [line for line in lines if line]
+
+
+def test_a_package_for_cpp(ros2, tmp_path):
+    words = ("pkg", "create", "p", "--dependencies", "rclcpp")
+    out = ros2.out(*words, "--node-name", "n", "--library-name", "my_lib", "--license", "MIT",
+                   cwd=tmp_path)  # fmt: skip
+    assert out.endswith(CPP_LOG)
+    root = ElementTree.parse(tmp_path / "p" / "package.xml").getroot()
+    tags = [(child.tag, child.text) for child in root if child.tag.endswith("depend")]
+    assert tags == [
+        ("buildtool_depend", "ament_cmake_ros"), ("depend", "rclcpp"),
+        ("test_depend", "ament_lint_auto"), ("test_depend", "ament_lint_common"),
+    ]  # fmt: skip
+    assert root.findtext("export/build_type") == "ament_cmake"
+    lines = commands(tmp_path / "p" / "CMakeLists.txt")
+    assert lines[:2] == ["cmake_minimum_required(VERSION 3.8)", "project(p)"]
+    for line in (
+        *("find_package(ament_cmake REQUIRED)", "find_package(ament_cmake_ros REQUIRED)"),
+        *("find_package(rclcpp REQUIRED)", "add_library(my_lib src/my_lib.cpp)"),
+        *('target_compile_definitions(my_lib PRIVATE "P_BUILDING_LIBRARY")', '  "rclcpp"'),
+        *("add_executable(n src/n.cpp)", "target_link_libraries(n my_lib)"),
+        *("ament_export_libraries(", "  ament_lint_auto_find_test_dependencies()"),
+    ):
+        assert line in lines
+    assert lines[-1] == "ament_package()"
+    assert "class MyLib\n" in (tmp_path / "p" / "include" / "p" / "my_lib.hpp").read_text()
+    assert "#ifndef P__MY_LIB_HPP_" in (tmp_path / "p" / "include" / "p" / "my_lib.hpp").read_text()
+
+
+def test_a_package_for_messages_has_what_its_files_need(ros2, tmp_path):
+    ros2("pkg", "create", "--build-type", "ament_cmake", "q", cwd=tmp_path)
+    root = tmp_path / "q"
+    made = sorted(str(path.relative_to(root)) for path in root.rglob("*"))
+    assert made == ["CMakeLists.txt", "include", "include/q", "package.xml", "src"]
+    assert "find_package(ament_cmake REQUIRED)" in commands(root / "CMakeLists.txt")
+    tools = ElementTree.parse(root / "package.xml").getroot().findall("buildtool_depend")
+    assert [one.text for one in tools] == ["ament_cmake"]
+
+
+@pytest.mark.skipif(not shutil.which("cmake"), reason="needs cmake")
+def test_cmake_can_read_what_is_made(ros2, tmp_path):
+    """Up to the first package that is not there, which is the first that is looked for."""
+    ros2("pkg", "create", "p", "--node-name", "n", "--library-name", "l", cwd=tmp_path)
+    done = subprocess.run(
+        ["cmake", "-S", "p", "-B", "b"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert "Parse error" not in done.stderr
 
 
 def test_equal_names_of_node_and_library(ros2, tmp_path):
@@ -223,8 +297,13 @@ def test_reading_the_index(ros2, prefix):
 def test_what_is_not_in_the_index(ros2, prefix):
     place = {"AMENT_PREFIX_PATH": str(prefix)}
     said = ros2.error("pkg", "executables", "alhpa", **place)
-    assert said == "Package 'alhpa' not found\nDid you mean 'alpha'?\n"
-    assert ros2.error("pkg", "prefix", "zzz", **place).startswith("Package not found\nIf you have")
+    assert said == "Package 'alhpa' not found\n# Did you mean 'alpha'?\n"
+    assert ros2.error("pkg", "prefix", "zzz", **place).startswith(
+        "Package not found\n# If you have"
+    )
+    assert ros2.error("pkg", "xml", "-t", "nme", "alpha", **place) == (
+        "XML tag not found\n# Did you mean 'name'?\n"
+    )
     assert ros2.error("pkg", "xml", "zzz", **place).startswith("Package not found\n")
     assert ros2.error("pkg", "xml", "beta", **place).startswith("Package XML manifest not found\n")
 

@@ -1,5 +1,7 @@
 import os
+import select
 import signal
+import subprocess
 import sys
 from pathlib import Path
 
@@ -76,6 +78,46 @@ def test_ctrl_c_reaches_the_child_once(ros2, demo):
     assert (process.returncode, out) == (7, "[ros2run]: Process exited with failure 7\n")
 
 
+#: Says which signals it gets, and ends some seconds after the last of them.
+COUNTER = f"""#!{sys.executable}
+import os, signal, time
+def note(number, frame):
+    global end
+    end = time.monotonic() + 3
+    os.write(1, signal.Signals(number).name.encode() + b"\\n")
+for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+    signal.signal(getattr(signal, name), note)
+end = time.monotonic() + 60
+os.write(1, b"ready\\n")
+while time.monotonic() < end:
+    time.sleep(0.05)
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_signal_that_comes_twice_from_timeout_reaches_the_child_once(ros2, demo, name):
+    """`timeout` sends its signal to the child, and then at once to the whole group."""
+    number = getattr(signal, name)
+    demo("count", COUNTER)
+    with ros2.running("run", "demo", "count") as process:
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(number)
+        os.killpg(process.pid, number)
+        out, error = process.communicate(timeout=60)
+    assert (out, error, process.returncode) == (f"{name}\n", "", 0)
+
+
+def test_somebody_who_insists_is_heard(ros2, demo):
+    demo("count", COUNTER)
+    with ros2.running("run", "demo", "count") as process:
+        assert process.stdout.readline() == "ready\n"
+        os.killpg(process.pid, signal.SIGINT)
+        assert process.stdout.readline() == "SIGINT\n"
+        while not select.select([process.stdout], [], [], 0.3)[0]:  # as a person does
+            subprocess.run(["kill", "-INT", str(process.pid)], check=True)
+        assert process.stdout.readline() == "SIGINT\n"
+
+
 def test_what_cannot_be_found(ros2, demo):
     demo("talker", "#!/bin/sh\n")
     demo("plain", "#!/bin/sh\n", mode=0o644)
@@ -83,7 +125,7 @@ def test_what_cannot_be_found(ros2, demo):
     demo("twin", "", folder="b")
     assert "Did you mean 'demo'?" in ros2.error("run", "deemo", "talker")
     assert ros2.error("run", "demo", "talkr").startswith(
-        "No executable found\nDid you mean 'talker'?\n"
+        "No executable found\n# Did you mean 'talker'?\n"
     )
     assert "Did you mean 'talker'?" in ros2.error("run", "demo", "talker.py")
     assert "no execute permission" in ros2.error("run", "demo", "plain")
@@ -98,7 +140,9 @@ def test_what_cannot_be_started(ros2, demo):
     demo("wrong_line", "#!/nowhere/python\n")
     assert "#!/usr/bin/env python3" in ros2.error("run", "demo", "no_line")
     assert "No such file or directory" in ros2.error("run", "demo", "wrong_line")
-    assert "Failed to start nosuch" in ros2.error("run", "--prefix", "nosuch", "demo", "no_line")
+    error = ros2.error("run", "--prefix", "nosuch -x", "demo", "no_line")
+    assert error.startswith("Failed to start nosuch: No such file or directory\n# --prefix begins")
+    assert "#!/usr/bin" not in error
     assert "cannot be read" in ros2.error("run", "--prefix", "'", "demo", "no_line")
 
 

@@ -1,7 +1,8 @@
 import re
+import subprocess
 
 import pytest
-from as_typed import interrupted
+from as_typed import Ros2, interrupted
 from ros2_command.verbs.topic import Bandwidth, Delays, Rates
 
 pytestmark = pytest.mark.ros
@@ -20,10 +21,11 @@ def test_list(graph):
 
 
 def test_type_and_find(graph):
-    assert graph.out("topic", "type", "temperature") == "std_msgs/msg/Float32\n"
-    assert graph.error("topic", "type", "/temprature") == (
-        "Unknown topic '/temprature'\nDid you mean '/temperature'?\n"
-    )
+    assert graph.out("topic", "type", "/temperature") == "std_msgs/msg/Float32\n"
+    for name in ("/temprature", "temperature"):  # the original wants the slash, and is silent
+        done = graph("topic", "type", name, code=1)
+        said = f"# Unknown topic '{name}'\n# Did you mean '/temperature'?\n"
+        assert (done.stdout, done.stderr) == ("", said)
     found = graph.out("topic", "find", "std_msgs/msg/Float32").split()
     assert found == ["/ns_two/in", "/one/in", "/slow", "/temperature"]
     assert graph.out("topic", "find", "-c", "std_msgs/Float32") == "0\n"
@@ -31,7 +33,7 @@ def test_type_and_find(graph):
 
 def test_info(graph):
     three = "Type: std_msgs/msg/Float32\nPublisher count: 1\nSubscription count: 0\n"
-    assert graph.out("topic", "info", "temperature") == three
+    assert graph.out("topic", "info", "/temperature") == three
     verbose = graph.out("topic", "info", "-v", "/temperature")
     pattern = (
         r"Type: std_msgs/msg/Float32\n\nPublisher count: 1\n\nNode name: one\nNode namespace: /\n"
@@ -42,7 +44,7 @@ def test_info(graph):
         r"  Liveliness lease duration: Infinite\n\nSubscription count: 0\n\n"
     )
     assert re.fullmatch(pattern, verbose)
-    assert graph.error("topic", "info", "slw") == "Unknown topic 'slw'\nDid you mean '/slow'?\n"
+    assert graph.error("topic", "info", "slw") == "Unknown topic 'slw'\n# Did you mean '/slow'?\n"
 
 
 def test_echo(graph):
@@ -63,11 +65,17 @@ def test_echo(graph):
     [
         (
             ("/temprature",),
-            "Could not determine the type for the passed topic\nDid you mean '/temp",
+            "Could not determine the type for the passed topic\n# Did you mean '/temp",
         ),
-        (("/temperature", "std_msgs/msg/String"), "carries [std_msgs/msg/Float32]"),
-        (("/temperature", "Float32"), "The passed message type is invalid\nDid you mean"),
-        (("/temperature", "--field", "dat"), "object has no attribute 'dat'\nDid you mean 'data'?"),
+        (
+            ("/temperature", "std_msgs/msg/String"),
+            "# The topic '/temperature' carries [std_msgs/msg/Float32]",
+        ),
+        (("/temperature", "Float32"), "The passed message type is invalid\n# Did you mean"),
+        (
+            ("/temperature", "--field", "dat"),
+            "object has no attribute 'dat'\n# Did you mean 'data'?",
+        ),
         (("/temperature", "--filter", "m.("), "is not a Python expression"),
         (("/temperature", "--filter", "m.nope"), "has no attribute 'nope'"),
         (
@@ -133,6 +141,7 @@ def test_delay(rich):
 def test_a_hidden_topic(rich):
     done = rich("topic", "type", "/house/_hidden", code=1)
     assert done.stdout == ""
+    assert done.stderr.startswith("# The topic '/house/_hidden' is hidden")
     assert "ros2 topic --include-hidden-topics type /house/_hidden" in done.stderr
     out = rich.out("topic", "--include-hidden-topics", "type", "/house/_hidden")
     assert out == "std_msgs/msg/String\n"
@@ -169,6 +178,7 @@ def test_rates_follow_simulated_time(rich):
 def test_pub_repeats_that_it_waits_and_says_who_may_be_meant(graph):
     words = ("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "1.2")
     done = graph("topic", "pub", *words, code=1)
+    # As the original, which looks each 0.1 s: it says so once more just before it gives up.
     assert done.stdout == 2 * "Waiting for at least 1 matching subscription(s)...\n"
     assert done.stderr.startswith("Timed out waiting for subscribers: Expected 1 subcribers but")
     assert "Did you mean '/one/in'?" in done.stderr
@@ -194,7 +204,7 @@ def test_pub_several_times(graph):
     [
         (("/x", "std_msgs/msg/Float32", "25"), "needs to be a dictionary in YAML format", 1),
         (("/x", "std_msgs/msg/Float32", "{data: ["), "not valid YAML", 1),
-        (("/x", "std_msgs/msg/Flot32"), "The passed message type is invalid\nDid you mean", 1),
+        (("/x", "std_msgs/msg/Flot32"), "The passed message type is invalid\n# Did you mean", 1),
         (("/x", "std_msgs/msg/Float32", "-r", "0"), "-r/--rate: Value must be positive", 2),
         (("/x", "std_msgs/msg/Float32", "-n", "a b"), "cannot be the name of a node", 1),
         (("/x y", "std_msgs/msg/Float32"), "topic name '/x y' is invalid", 1),
@@ -237,3 +247,102 @@ def test_delays():
     text = "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2"
     assert delays.report() == text
     assert delays.report() is None
+
+
+HIDDEN = {
+    "/house/fibonacci/_action/feedback": "test_msgs/action/Fibonacci_FeedbackMessage",
+    "/house/fibonacci/_action/status": "action_msgs/msg/GoalStatusArray",
+    "/house/enable/_service_event": "std_srvs/srv/SetBool_Event",
+}
+
+
+def test_topics_of_actions_and_services_have_their_types(rich):
+    known = rich.out("topic", "list", "-t", "--include-hidden-topics")
+    for topic, name in HIDDEN.items():
+        assert f"{topic} [{name}]\n" in known
+        done = rich("topic", "echo", topic, "--timeout", "0.2")
+        assert (done.stdout, done.stderr) == ("", "")
+        done = rich("topic", "echo", topic, name, "--timeout", "0.2")
+        assert (done.stdout, done.stderr) == ("", "")
+
+
+def test_feedback_can_be_heard(rich):
+    topic = "/house/fibonacci/_action/feedback"
+    with (
+        rich.running("topic", "echo", "--once", topic) as echo,
+        rich.running("topic", "bw", topic) as bandwidth,
+    ):
+        assert bandwidth.stdout.readline() == f"Subscribed to [{topic}]\n"
+        while rich.out("topic", "info", topic).splitlines()[-1] != "Subscription count: 2":
+            pass
+        rich.out("action", "send_goal", "/house/fibonacci", "test_msgs/action/Fibonacci",
+                 "{order: 5}")  # fmt: skip
+        out, error = echo.communicate(timeout=60)
+    assert (echo.returncode, error) == (0, "")
+    assert out.startswith("goal_id:\n  uuid:\n  - ")
+    assert "feedback:\n  sequence:\n  - 0\n  - 1\n" in out
+
+
+def test_a_type_that_this_terminal_cannot_load(graph, another_node, tmp_path):
+    """The type's workspace is sourced in the node's terminal, and not here."""
+    (tmp_path / "std_msgs").mkdir()
+    (tmp_path / "std_msgs" / "__init__.py").write_text("raise ImportError('not here')\n")
+    path = f"{tmp_path}:{graph.environment['PYTHONPATH']}"
+    here = Ros2(**(graph.environment | {"PYTHONPATH": path}))
+    for words in (("echo",), ("hz",), ("bw",), ("delay",), ("echo", "--raw")):
+        lines = here.error("topic", *words, "/temperature").splitlines()
+        assert lines[0] == "The message type 'std_msgs/msg/Float32' is invalid"
+        assert lines[1].startswith("# The topic '/temperature' carries that type")
+        assert "source install/setup.bash" in lines[2]
+    with here.running("bag", "record", "-o", tmp_path / "run", "/temperature") as process:
+        while "cannot be recorded" not in (line := process.stderr.readline()):
+            assert line
+        assert "std_msgs/msg/Float32" in line
+        assert "not sourced" in line
+    error = graph.error("topic", "pub", "/x", "tutorial_interfaces/msg/Num")
+    assert error.startswith("The passed message type is invalid\n# This terminal knows no package")
+
+
+PAIRS = [
+    # what was asked for, and what reaches a subscription that came late to `/latched`
+    ([], "data: 25.5"),
+    (["--qos-profile", "sensor_data"], "data: 25.5"),
+    (["--qos-durability", "transient_local"], ""),
+    (["--qos-depth", "1"], ""),
+    (["--qos-reliability", "reliable"], ""),
+    (["--qos-reliability", "reliable", "--qos-durability", "transient_local"], "data: 25.5"),
+]
+
+
+@pytest.mark.parametrize(("options", "heard"), PAIRS)
+def test_one_policy_that_is_asked_for_switches_the_choice_off(latched, options, heard):
+    """The original chooses what fits the publishers only if no single policy is given."""
+    wait = ["--timeout", "20"] if heard else ["--timeout", "1.5"]
+    out = latched.out("topic", "echo", "--once", *wait, *options, "/latched")
+    assert out == (f"{heard}\n---\n" if heard else "")
+
+
+def test_publishers_that_differ_are_heard_as_best_effort(latched, another_node):
+    with another_node(latched, "weak", "/latched", "best_effort", file="latched_node.py"):
+        out = latched.out("topic", "echo", "--timeout", "0.5", "/latched")
+    for policy, weak in (("Reliability", "BEST_EFFORT"), ("Durability", "VOLATILE")):
+        assert f"Falling back to QoS{policy}Policy.{weak} as it will connect to all" in out
+
+
+def test_output_without_the_streams_that_it_needs(graph):
+    """Closed by the shell, or of an encoding that lacks a character."""
+    for tail, shown in (("topic list >&-", ""), ("topic list 2>&-", "/temperature\n")):
+        done = subprocess.run(
+            ["bash", "-c", f"{' '.join(graph.words())} {tail}"], env=graph.environment,
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert (done.returncode, done.stderr) == (0, "")
+        assert shown in done.stdout
+    value = ("topic", "pub", "-w", "0", "-1", "/x", "std_msgs/msg/String", "{data: ä}")
+    out = Ros2(**graph.environment).out(*value, PYTHONIOENCODING="ascii:strict")
+    assert r"data='\xe4'" in out
+    home = {name: text for name, text in graph.environment.items() if name != "HOME"}
+    done = subprocess.run(
+        graph.words("node", "list"), env=home, capture_output=True, text=True, check=False
+    )
+    assert (done.stdout, done.stderr) == ("/ns_two\n/one\n", "")

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-import sys
 from argparse import Namespace
 from collections.abc import Callable
-from functools import partial
 
-from ros2_command.errors import CommandError
-from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.messages import Style, add_value_arguments, fill, read_yaml, to_yaml, value_text
+from ros2_command.errors import CommandError, note
+from ros2_command.graph import Graph, open_graph
+from ros2_command.messages import (
+    FieldError,
+    Style,
+    fill,
+    read_yaml,
+    to_yaml,
+    value_arguments,
+    value_text,
+)
 from ros2_command.names import (
     Entries,
     absolute,
     check_name,
     full_type,
-    pick,
     show_entries,
     show_types,
     suggestion,
     type_class,
+    types_of,
     wait_for_server,
 )
 from ros2_command.registry import Verb, argument, flag
@@ -39,14 +45,15 @@ def _actions(graph: Graph) -> Entries:
 
 
 def _list(args: Namespace) -> None:
-    with open_graph(args) as graph:
+    with open_graph() as graph:
         found = _actions(graph)
     show_entries(found, args.count_actions, args.show_types)
 
 
 def _type(args: Namespace) -> None:
-    with open_graph(args) as graph:
-        _, types = pick(args.action_name, _actions(graph), f"Unknown action '{args.action_name}'")
+    with open_graph() as graph:
+        name = args.action_name
+        types = types_of(name, _actions(graph), f"Unknown action '{name}'", silent=True)
     print("\n".join(types))
 
 
@@ -55,7 +62,7 @@ def _info(args: Namespace) -> None:
 
     check_name("action", args.action_name)
     name = absolute(args.action_name)
-    with open_graph(args) as graph:
+    with open_graph() as graph:
         known = dict(_actions(graph))
         clients = _nodes_with(graph, name, action.get_action_client_names_and_types_by_node)
         servers = _nodes_with(graph, name, action.get_action_server_names_and_types_by_node)
@@ -65,7 +72,7 @@ def _info(args: Namespace) -> None:
         for node, types in () if args.count else nodes:
             print(f"    {node} {show_types(types)}" if args.show_types else f"    {node}")
     if name not in known:  # the original is content with zeros, and so is the exit code
-        print(suggestion(name, known), file=sys.stderr)
+        note(suggestion(name, known))
 
 
 def _nodes_with(graph: Graph, action: str, ask: Untyped) -> Entries:
@@ -84,7 +91,11 @@ def _send_goal(args: Namespace) -> int:
     check_name("action", args.action_name)
     kind = type_class(args.action_type, "action")
     goal = kind.Goal()
-    stampers = fill(goal, read_yaml(value_text(args.goal, args.stdin)))
+    try:
+        fill(goal, read_yaml(value_text(args.goal, args.stdin)), stamps=False)
+    except FieldError as error:
+        said = f"Failed to populate message fields: {error.as_exception}"
+        raise CommandError(said, *error.notes) from None
     with open_graph() as graph:
         client = ActionClient(graph.node, kind, args.action_name)
         try:
@@ -94,8 +105,6 @@ def _send_goal(args: Namespace) -> int:
                 graph, client.server_is_ready, "action", args.action_name, asked,
                 lambda: _actions(graph),
             )  # fmt: skip
-            for stamp in stampers:
-                stamp(graph.node.get_clock().now().to_msg())
             return _follow(graph, client, goal, args.feedback)
         finally:
             client.destroy()
@@ -116,7 +125,7 @@ def _follow(graph: Graph, client: Untyped, goal: Untyped, feedback: bool) -> int
     handle = _wait(graph, client.send_goal_async(goal, take if feedback else None))
     if not handle.accepted:
         print("Goal was rejected.")
-        return 1
+        return 0
     try:
         print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
         keep = show
@@ -153,7 +162,6 @@ VERBS = {
     "info": Verb(
         "Print information about an action",
         _info,
-        add_graph_arguments,
         argument("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')"),
         _TYPES,
         flag("-c", "--count", help="Only display the number of action clients and action servers"),
@@ -161,7 +169,6 @@ VERBS = {
     "list": Verb(
         "Output a list of action names",
         _list,
-        add_graph_arguments,
         _TYPES,
         flag("-c", "--count-actions", help="Only display the number of actions discovered"),
     ),
@@ -171,14 +178,12 @@ VERBS = {
         argument("action_name", help="Name of the ROS action (e.g. '/fibonacci')"),
         argument("action_type",
                  help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')"),
-        partial(add_value_arguments, name="goal",
-                about="Goal request values in YAML format (e.g. '{order: 10}')"),
+        value_arguments("goal", "Goal request values in YAML format (e.g. '{order: 10}')"),
         flag("-f", "--feedback", help="Echo feedback messages for the goal"),
     ),
     "type": Verb(
         "Print a action's type",
         _type,
-        add_graph_arguments,
         argument("action_name", help="Name of the ROS action to get type (e.g. '/fibonacci')"),
     ),
 }  # fmt: skip

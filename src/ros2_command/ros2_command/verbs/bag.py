@@ -6,9 +6,10 @@ reads them. Messages pass between the middleware and the file as unchanged bytes
 
 from __future__ import annotations
 
+import mmap
+import os
 import re
 import signal
-import sys
 import time
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterator
@@ -17,7 +18,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from ros2_command.errors import CommandError
+from ros2_command.definitions import definition_of
+from ros2_command.errors import CommandError, note
 from ros2_command.graph import Graph, open_graph
 from ros2_command.names import (
     absolute,
@@ -27,7 +29,6 @@ from ros2_command.names import (
     is_hidden,
     suggestion,
 )
-from ros2_command.packages import whole_definition
 from ros2_command.registry import Argument, Verb, argument, flag, leave_out
 from ros2_command.untyped import Untyped
 
@@ -94,7 +95,7 @@ def _info(args: Namespace) -> None:
             "Files": ("\n" + " " * 19).join(one.name for one in files),
             "Bag size": _size(size),
             "Storage id": "mcap" if ".mcap" in files[0].name else "sqlite3",
-            "ROS Distro": reader.ros_distro or "unknown",
+            "ROS Distro": reader.ros_distro or _distro_of(files[0]),
             "Duration": f"{_seconds(last - first)}s",
             "Start": _date(first),
             "End": _date(last),
@@ -112,6 +113,14 @@ def _info(args: Namespace) -> None:
 def _files(path: Path) -> list[Path]:
     files = sorted(path.iterdir()) if path.is_dir() else [path]
     return [one for one in files if one.name != "metadata.yaml"]
+
+
+def _distro_of(path: Path) -> str:
+    """Return the distribution that a file alone tells of, in the description after its messages."""
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        place = data.rfind(b"ros_distro: ")
+        found = re.match(rb"ros_distro: '?(\w+)", data[place : place + 60]) if place >= 0 else None
+    return found[1].decode() if found else "unknown"
 
 
 def _size(count: float) -> str:
@@ -153,7 +162,7 @@ def _record(args: Namespace) -> int:
     if not count:
         missing = [one for one in args.topics if absolute(one) not in recorder.counts]
         hint = suggestion(absolute(missing[0]), recorder.seen) if missing else ""
-        print(f"No message was recorded. {hint}".rstrip(), file=sys.stderr)
+        note(f"No message was recorded. {hint}")
     return 0
 
 
@@ -203,10 +212,30 @@ def _new_bag(folder: Path, storage: str) -> Iterator[Any]:
         writer.open()
     except OSError as error:
         raise _error(f"'{folder}' cannot be written: {error.strerror or error}") from None
+    file: Any = writer.storage
+    name, close = f"{file.path.stem}_0{file.path.suffix}", file.close
+    file.close = lambda version, text: close(version, _as_ros_has_it(text, name))
     try:
         yield writer
     finally:
         writer.close()
+        file.path.rename(folder / name)
+        about = writer.metapath.read_text(encoding="utf-8")
+        writer.metapath.write_text(_as_ros_has_it(about, name), encoding="utf-8")
+
+
+def _as_ros_has_it(text: str, name: str) -> str:
+    """Return the description of a recording with the name of its file, and the distribution.
+
+    The library gives the file the folder's name, and itself as the distribution.
+    """
+    import yaml
+
+    tree = yaml.safe_load(text)
+    about = tree.get("rosbag2_bagfile_information", tree)
+    about |= {"relative_file_paths": [name], "ros_distro": os.environ.get("ROS_DISTRO", "jazzy")}
+    about["files"][0]["path"] = name
+    return str(yaml.safe_dump(tree, sort_keys=False))
 
 
 @contextmanager
@@ -288,13 +317,13 @@ class Recorder:
     def _subscribe(self, name: str, type_name: str) -> None:
         kind = find_type(type_name, "msg")
         if kind is None:
-            self._refuse(name, f"the type {type_name} is not installed")
+            self._refuse(
+                name,
+                f"the type {type_name} cannot be loaded: its package is not installed, or its "
+                "workspace is not sourced in this terminal",
+            )
             return
-        try:
-            text = whole_definition(type_name)
-        except CommandError as error:
-            self._refuse(name, str(error))
-            return
+        text = definition_of(kind, type_name)
         publishers = self._graph.publishers(name)
         ends = publishers or self._graph.subscriptions(name)
         connection = self._writer.add_connection(
@@ -383,6 +412,8 @@ def _play(args: Namespace) -> int:
             known = ", ".join(reader.topics)
             raise _error(f"Nothing to play: no topic is left of {known or 'none at all'}.")
         graph.settle()  # whoever listens already shall hear the first message, too
+        graph.node.get_logger().info(f"Set rate to {args.rate:g}")
+        graph.node.get_logger().info("Playback until timestamp: -1")
         with suppress(KeyboardInterrupt):
             player = Player(graph, reader, publishers, args)
             player.play()

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from argparse import REMAINDER, ArgumentParser, Namespace
-from collections.abc import Sequence
+import math
+import re
+from argparse import REMAINDER, Action, ArgumentParser, Namespace
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.resources import files
 
 from ros2_command.errors import CommandError
+from ros2_command.names import Entries, absolute, type_class, visible
 from ros2_command.registry import COMMANDS, Verb, build, verbs_of
 
 _BASH = """_ros2_complete() {
@@ -43,34 +46,83 @@ def candidates(words: Sequence[str]) -> list[str]:
         words: What is typed after `ros2`; the last one is incomplete, perhaps empty.
     """
     *done, started = words or [""]
-    plain = [word for word in done if not word.startswith("-")]
     try:
-        found = _options(done) if started.startswith("-") else _next(plain)
+        found = _options(done) if started.startswith("-") else _next(done)
     except (CommandError, SystemExit):
         found = []
-    return sorted({one for one in found if one.startswith(started)})
+    # In a quotation that is open already, the shell writes the marks itself.
+    plain = [one.strip('"') for one in found] if started.startswith(_QUOTES) else list(found)
+    return sorted({one for one in plain if one.startswith(started.lstrip("".join(_QUOTES)))})
 
 
-def _next(words: list[str]) -> list[str]:
+#: The marks with which a quotation begins.
+_QUOTES = ('"', "'")
+
+
+def _next(done: Sequence[str]) -> Iterable[str]:
+    words = [word for word in done if not word.startswith("-")]
     if not words:
-        return list(COMMANDS)
+        return COMMANDS
     if words[0] not in COMMANDS:
         return []
     verbs = verbs_of(words[0])
     if "" not in verbs and len(words) == 1:
-        return list(verbs)
-    given = words[1:] if "" in verbs else words[2:]
-    arguments = [one.dest for one in _parser_of(words)._actions if not one.option_strings]
-    if len(given) >= len(arguments) or words[:2] == ["pkg", "create"]:  # which wants a new name
-        return []
-    return _values(arguments[len(given)], given)
+        return verbs
+    parser, names = _parser_of(done), words[:1] if "" in verbs else words[:2]
+    place = done.index(names[-1]) + 1  # the verb's own words follow it
+    given, wanted = _given(parser, done[place:])
+    if wanted is None or [*names, wanted.dest] == ["pkg", "create", "package_name"]:
+        return []  # the last of these wants a new name
+    return wanted.choices or _values(wanted.dest, given, names)
 
 
-def _options(words: list[str]) -> list[str]:
+def _given(parser: ArgumentParser, words: Sequence[str]) -> tuple[dict[str, str], Action | None]:
+    """Sort the words after a verb.
+
+    Args:
+        parser: The verb's parser.
+        words: What is typed, without the word that is to be completed.
+
+    Returns:
+        The positional arguments by name, and what the next word belongs to.
+    """
+    places = [one for one in parser._actions if not one.option_strings]
+    given: dict[str, str] = {}
+    option, left = None, 0.0
+    for word in words:
+        if left and not word.startswith("-"):
+            left -= 1
+        elif word.startswith("-"):
+            name, sign, _ = word.partition("=")
+            option = _option(parser, name)
+            left = 0.0 if sign or option is None else _count(option)
+        elif places:
+            given[places[0].dest] = word
+            places = places if places[0].nargs in ("+", "*") else places[1:]
+    if left and option is not None:
+        return given, option
+    return given, places[0] if places else None
+
+
+def _option(parser: ArgumentParser, name: str) -> Action | None:
+    """Return the option of a name, which may be shortened."""
+    known = parser._option_string_actions
+    long = [one for one in known if name.startswith("--") and one.startswith(name)]
+    return known.get(name) or (known[long[0]] if len(long) == 1 else None)
+
+
+def _count(option: Action) -> float:
+    """Return how many words after an option are its own at most."""
+    if isinstance(option.nargs, int):
+        return option.nargs
+    return 1 if option.nargs in (None, "?") else math.inf
+
+
+def _options(words: Sequence[str]) -> list[str]:
     return list(_parser_of(words)._option_string_actions)
 
 
-def _parser_of(words: list[str]) -> ArgumentParser:
+def _parser_of(words: Sequence[str]) -> ArgumentParser:
     """Return the parser of the command or verb that the words begin with."""
     parser: ArgumentParser = build(words)
     for word in [word for word in words if not word.startswith("-")][:2]:
@@ -80,6 +132,8 @@ def _parser_of(words: list[str]) -> ArgumentParser:
     return parser
 
 
+#: What a shell reads in double quotes, and how that is written there.
+_SPECIAL, _ESCAPE = re.compile(r'(["\\$`])'), r"\\\1"
 #: The kind of interface that an argument names; None for any.
 _TYPES = {
     "message_type": "msg",
@@ -88,53 +142,91 @@ _TYPES = {
     "action_type": "action",
     "type": None,
 }
+#: Arguments that name what is in the graph, and what each of them names.
+_NAMES = {
+    "node_name": "node",
+    "topic_name": "topic",
+    "topic": "topic",
+    "topics": "topic",
+    "topics_positional": "topic",
+    "exclude_topics": "topic",
+    "service_name": "service",
+    "action_name": "action",
+}
+#: Verbs whose argument `node_name` is a name for a node of their own.
+_OWN_NODE = (["topic", "pub"], ["bag", "record"], ["pkg", "create"])
 
 
-def _values(argument: str, given: Sequence[str]) -> list[str]:
+def _values(argument: str, given: Mapping[str, str], names: list[str]) -> list[str]:
     """Return what an argument may be.
 
     Args:
         argument: Its name in the parser.
         given: The arguments before it.
+        names: The command, and its verb, if it has any.
     """
     from ros2_command import packages
 
     if argument == "package_name":
         return list(packages.all_packages())
     if argument == "executable_name":
-        found = packages.executables(packages.package_prefix(given[0]), given[0])
-        return [path.name for path in found]
+        package = given["package_name"]
+        return [one.name for one in packages.executables(packages.package_prefix(package), package)]
     if argument in _TYPES:
         kind = _TYPES[argument]
-        return [one.name for one in packages.all_interfaces() if kind in (None, one.kind)]
+        of_name = _own_types(given)
+        return of_name or [
+            one.name for one in packages.all_interfaces() if kind in (None, one.kind)
+        ]
+    if argument in ("values", "goal"):
+        return _prototype(given)
+    if argument in ("launch_file_name", "launch_arguments"):
+        from ros2_command.verbs.launch import words_after
+
+        return words_after(given["package_name"], given.get("launch_file_name"))
     if argument in ("parameter_name", "parameter_names"):
-        return _parameters(given[0])
-    return _from_graph(argument)
+        return _parameters(given["node_name"])
+    if argument in _NAMES and not (argument == "node_name" and names in _OWN_NODE):
+        return [name for name, _ in visible(_entries(_NAMES[argument]), hidden=False)]
+    return []
 
 
-def _from_graph(argument: str) -> list[str]:
+def _own_types(given: Mapping[str, str]) -> list[str]:
+    """Return the types of the topic, service or action that is named before the type."""
+    for argument, name in given.items():
+        if argument in _NAMES:
+            return dict(_entries(_NAMES[argument])).get(absolute(name), [])
+    return []
+
+
+def _entries(what: str) -> Entries:
+    """Return the nodes, topics, services or actions of the graph, with their types."""
     from ros2_command.graph import open_graph
-    from ros2_command.names import visible
 
-    if argument not in ("node_name", "topic_name", "topics_positional", "service_name",
-                        "action_name"):  # fmt: skip
-        return []
     with open_graph() as graph:
         graph.settle()
-        if argument == "node_name":
-            return graph.nodes()
-        if argument == "action_name":
+        if what == "node":
+            return [(name, []) for name in graph.nodes()]
+        if what == "action":
             from rclpy.action import get_action_names_and_types
 
-            entries = get_action_names_and_types(graph.node)
-        else:
-            entries = graph.services() if argument == "service_name" else graph.topics()
-    return [name for name, _ in visible(entries, hidden=False)]
+            return list(get_action_names_and_types(graph.node))
+        return graph.services() if what == "service" else graph.topics()
+
+
+def _prototype(given: Mapping[str, str]) -> list[str]:
+    """Return values to fill in: those of a new message, on one line and in quotes."""
+    from ros2_command.messages import prototype
+
+    argument, name = next((one for one in given.items() if one[0] in _TYPES), ("", ""))
+    kind = type_class(name, _TYPES.get(argument) or "msg")
+    part = {"srv": "Request", "action": "Goal"}.get(_TYPES.get(argument) or "")
+    text = prototype(getattr(kind, part)() if part else kind())
+    return [f'"{_SPECIAL.sub(_ESCAPE, text)}"']
 
 
 def _parameters(node: str) -> list[str]:
     from ros2_command.graph import open_graph
-    from ros2_command.names import absolute
     from ros2_command.verbs.param import RemoteParameters
 
     with open_graph() as graph:

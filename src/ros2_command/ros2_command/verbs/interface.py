@@ -63,7 +63,7 @@ def _proto(args: Namespace) -> None:
 def _show(args: Namespace) -> None:
     name = sys.stdin.readline().strip() if args.type == "-" else args.type
     if not name:
-        raise UsageError("argument type: the passed value is empty")
+        raise UsageError("the passed value is empty")
     comments = "all" if args.all_comments else "none" if args.no_comments else "top"
     for line in show_lines(find_interface(name), comments):
         print(line)

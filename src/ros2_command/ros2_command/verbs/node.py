@@ -7,7 +7,7 @@ from argparse import Namespace
 from typing import Any
 
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.names import Entries, find_node, visible
+from ros2_command.names import Entries, check_node, visible
 from ros2_command.registry import Verb, argument, flag
 
 SHARED_NAME = (
@@ -31,8 +31,8 @@ def _list(args: Namespace) -> None:
 def _info(args: Namespace) -> None:
     with open_graph(args) as graph:
         nodes = graph.settle().nodes(hidden=args.include_hidden)
-        complaint = f"Unable to find node '{args.node_name}'"
-        name = find_node(args.node_name, nodes, complaint)
+        name = args.node_name
+        check_node(name, nodes, f"Unable to find node '{name}'")
         sections = _ask(graph, name)
     if (count := nodes.count(name)) > 1:
         print(

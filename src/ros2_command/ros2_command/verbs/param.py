@@ -5,18 +5,20 @@ from __future__ import annotations
 import re
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 from typing import Any
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.names import absolute, did_you_mean, find_node
+from ros2_command.names import absolute, check_node, did_you_mean
 from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 from ros2_command.verbs.service import ask
 
 #: How long a node may take to answer, in seconds.
 PATIENCE = 5.0
+TIMED_OUT = "Wait for service timed out waiting for parameter services for node "
 #: Words for the values of `rcl_interfaces/msg/ParameterType`, and the field that holds each.
 KINDS = (
     ("not set", ""),
@@ -38,10 +40,18 @@ class RemoteParameters:
     Args:
         graph: Where the node is.
         node: Its full name.
+        typed: Its name as typed, if somebody did.
     """
 
-    def __init__(self, graph: Graph, node: str) -> None:
-        self._graph, self.node = graph, node
+    def __init__(self, graph: Graph, node: str, typed: str = "") -> None:
+        self._graph, self.node, self._typed = graph, node, typed or node
+
+    def client(self, service: str) -> Untyped:
+        """Return a client of one of the parameter services."""
+        from rcl_interfaces import srv
+
+        words = "".join(word.capitalize() for word in service.split("_"))
+        return self._graph.node.create_client(getattr(srv, words), f"{self.node}/{service}")
 
     def call(self, service: str, **fields: Untyped) -> Untyped:
         """Call one of the parameter services.
@@ -49,14 +59,12 @@ class RemoteParameters:
         Raises:
             CommandError: If the node does not offer it, or does not answer.
         """
-        from rcl_interfaces import srv
-
-        words = "".join(word.capitalize() for word in service.split("_"))
-        kind = getattr(srv, words)
-        client = self._graph.node.create_client(kind, f"{self.node}/{service}")
+        client = self.client(service)
         if not self._graph.spin_until(client.service_is_ready, PATIENCE):
-            raise CommandError(f"The node '{self.node}' does not offer its parameters")
-        return ask(self._graph, client, kind.Request(**fields), PATIENCE)
+            raise CommandError(
+                f"{TIMED_OUT}{self._typed}", f"'{self.node}' does not offer its parameters."
+            )
+        return ask(self._graph, client, client.srv_type.Request(**fields), PATIENCE)
 
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
         """Return the declared names, sorted."""
@@ -99,9 +107,8 @@ def open_node(graph: Graph, args: Namespace) -> RemoteParameters:
 
     graph.settle(there)
     graph.spin_until(there, float(args.timeout)) if not graph.nodes() else None
-    return RemoteParameters(
-        graph, find_node(args.node_name, graph.nodes(args.include_hidden_nodes), "Node not found")
-    )
+    check_node(name, graph.nodes(args.include_hidden_nodes), "Node not found")
+    return RemoteParameters(graph, name, args.node_name)
 
 
 def plain_value(value: Untyped) -> Untyped:
@@ -119,12 +126,11 @@ def _get(args: Namespace) -> None:
         hint = "" if found else node.hint(args.parameter_name)
     if not found:
         raise CommandError("Parameter not set", hint)
-    if not found[0].type:
-        print("Parameter not set.")
-        return
     kind, value = KINDS[found[0].type][0].capitalize(), plain_value(found[0])
     if args.hide_type:
         print(value)
+    elif value is None:
+        print("Parameter not set.")
     elif kind.endswith(" array"):
         print(f"{kind.removesuffix(' array')} values are: {value}")
     else:
@@ -137,11 +143,21 @@ def _set(args: Namespace) -> None:
     change = Parameter(name=args.parameter_name, value=value_message(args.value))
     with open_graph(args) as graph:
         node = open_node(graph, args)
-        (result,) = node.set(change)
-        hint = "" if result.successful else node.hint(args.parameter_name)
-    if not result.successful:
-        raise CommandError(f"Setting parameter failed: {result.reason}", hint)
-    print("Set parameter successful")
+        _report("Set parameter successful", "Setting parameter failed", node, change)
+
+
+def _report(good: str, bad: str, node: RemoteParameters, change: Untyped) -> None:
+    """Set or delete a parameter, and tell what became of it, as the node says it.
+
+    A refusal is an answer, so the exit code is 0, as in the original.
+    """
+    (result,) = node.set(change)
+    reason = f": {result.reason}" if result.reason else ""
+    if result.successful:
+        print(f"{good}{reason}")
+    else:
+        print(f"{bad}{reason}", file=sys.stderr)
+        note(node.hint(change.name))
 
 
 def value_message(text: str) -> Untyped:
@@ -164,29 +180,21 @@ def value_message(text: str) -> Untyped:
 def _delete(args: Namespace) -> None:
     from rcl_interfaces.msg import Parameter
 
+    change = Parameter(name=args.parameter_name)  # a value of no type
     with open_graph(args) as graph:
         node = open_node(graph, args)
-        (result,) = node.set(Parameter(name=args.parameter_name))  # a value of no type
-        hint = "" if result.successful else node.hint(args.parameter_name)
-    if not result.successful:
-        reason = f": {result.reason}" if result.reason else ""
-        raise CommandError(f"Deleting parameter failed{reason}", hint)
-    print("Deleted parameter successfully")
+        _report("Deleted parameter successfully", "Deleting parameter failed", node, change)
 
 
 def _describe(args: Namespace) -> None:
     with open_graph(args) as graph:
         node = open_node(graph, args)
-        known = node.names()
-        names = [one for one in args.parameter_names if one in known]
-        found = node.call("describe_parameters", names=names).descriptors if names else []
+        found = node.call("describe_parameters", names=args.parameter_names).descriptors
+        hints = [] if found else list(map(node.hint, args.parameter_names))
     for one in found:
         print("\n".join(_description(one)))
-    if missing := [one for one in args.parameter_names if one not in known]:
-        has = f"It has: {', '.join(known)}"
-        raise CommandError(
-            f"Parameter not set: {', '.join(missing)}", did_you_mean(missing[0], known, has)
-        )
+    if any(hints):
+        note("A node describes either all of the parameters that it is asked for, or none.", *hints)
 
 
 def _description(about: Untyped) -> list[str]:
@@ -202,31 +210,80 @@ def _description(about: Untyped) -> list[str]:
     return lines + ([f"    Additional constraints: {extra}"] if extra else [])
 
 
-def _list(args: Namespace) -> None:
+def _list(args: Namespace) -> int:
     try:
-        matches = re.compile(args.filter or "").search
+        matches = re.compile(args.filter[0] if args.filter else "").match
     except re.error as error:
-        raise CommandError(f"--filter {args.filter!r} is not a pattern: {error}") from None
+        raise CommandError(f"--filter {args.filter[0]!r} is not a pattern: {error}") from None
     with open_graph(args) as graph:
-        graph.settle()
-        for line in _lines(graph, args, lambda name: matches(name) is not None):
-            print(line)
+        nodes = graph.settle().nodes(args.include_hidden_nodes)
+        if args.node_name is not None:
+            nodes = [absolute(args.node_name)]
+            check_node(nodes[0], graph.nodes(args.include_hidden_nodes), "Node not found")
+        nodes = sorted(set(nodes), key=lambda name: name.rpartition("/")[::-1])
+        asked = {node: {"prefixes": args.param_prefixes} for node in nodes}
+        names = {
+            node: sorted(filter(matches, answer.result.names)) if answer else answer
+            for node, answer in _ask_all(graph, "list_parameters", asked).items()
+        }
+        types = {}
+        if args.param_type:
+            asked = {node: {"names": own} for node, own in names.items() if own}
+            types = _ask_all(graph, "describe_parameters", asked)
+    for node in nodes:
+        if node not in names:
+            place, _, base = node.rpartition("/")
+            print(f"{TIMED_OUT}NodeName(name={base!r}, namespace={place or '/'!r}, "
+                  f"full_name={node!r})")  # fmt: skip
+        elif names[node] is None:
+            _say_that_it_hangs(node)
+        else:
+            _show_names(names[node], types.get(node), "" if args.node_name else node)
+    return int(None in names.values())
 
 
-def _lines(graph: Graph, args: Namespace, wanted: Callable[[str], bool]) -> list[str]:
-    nodes = graph.nodes(args.include_hidden_nodes)
-    if args.node_name is not None:
-        nodes = [find_node(args.node_name, nodes, "Node not found")]
-    lines = []
-    for node in sorted(set(nodes), key=lambda name: name.rpartition("/")[2]):
-        remote = RemoteParameters(graph, node)
-        names = [name for name in remote.names(args.param_prefixes) if wanted(name)]
-        if names and args.node_name is None:
-            lines.append(f"{node}:")
-        types = remote.call("get_parameter_types", names=names).types if args.param_type else ()
-        endings = [f" (type: {KINDS[kind][0]})" for kind in types] or [""] * len(names)
-        lines += [f"  {name}{ending}" for name, ending in zip(names, endings, strict=True)]
-    return lines
+def _ask_all(graph: Graph, service: str, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Ask several nodes at once, so that one that does not answer costs the others nothing.
+
+    Args:
+        graph: Where the nodes are.
+        service: The parameter service.
+        fields: Those of the request, by the full name of the node.
+
+    Returns:
+        The response of each node that offers the service; None if it does not answer.
+    """
+    clients = {node: RemoteParameters(graph, node).client(service) for node in fields}
+    known = dict(graph.services())
+    offered = [one for one in clients.values() if one.srv_name in known]
+    graph.spin_until(lambda: all(one.service_is_ready() for one in offered), PATIENCE)
+    futures = {
+        node: one.call_async(one.srv_type.Request(**fields[node]))
+        for node, one in clients.items()
+        if one.service_is_ready()
+    }
+    graph.spin_until(lambda: all(one.done() for one in futures.values()), PATIENCE)
+    return {
+        node: one.result() if one.done() and one.exception() is None else None
+        for node, one in futures.items()
+    }
+
+
+def _say_that_it_hangs(node: str) -> None:
+    print(
+        f"Exception while calling service of node '{node}': it did not answer in {PATIENCE:g} "
+        "seconds",
+        file=sys.stderr,
+    )
+    note("A callback of that node that does not return keeps it from answering.")
+
+
+def _show_names(names: Sequence[str], types: Untyped, heading: str) -> None:
+    if names and heading:
+        print(f"{heading}:")
+    endings = [f" (type: {KINDS[one.type][0]})" for one in types.descriptors] if types else []
+    for name, ending in zip_longest(names, endings, fillvalue=""):
+        print(f"  {name}{ending}")
 
 
 def _dump(args: Namespace) -> None:
@@ -239,7 +296,7 @@ def _dump(args: Namespace) -> None:
     print(
         yaml.safe_dump(
             {node.node: {"ros__parameters": parameters}},
-            default_flow_style=False, allow_unicode=True,
+            default_flow_style=False,
         )
     )  # fmt: skip
 
@@ -306,10 +363,8 @@ def read_parameters(path: str, node: str, wildcard: bool) -> list[Any]:
     wanted = [*(["/**"] if wildcard else []), node.removeprefix("/"), node]
     found = [sections[one] for one in wanted if one in sections]
     if not found:
-        raise CommandError(
-            f"Param file does not contain parameters for {node}, only for nodes: {list(sections)}",
-            how,
-        )
+        others = f"It has nothing for {node}, only for: {', '.join(map(str, sections))}"
+        raise CommandError("Param file does not contain selected parameters", others, how)
     values: dict[str, Any] = {}
     for one in found:
         if not isinstance(one, dict) or not isinstance(one.get("ros__parameters"), dict):
@@ -341,35 +396,42 @@ def _parameter(name: str, value: Untyped) -> Untyped:
 
 
 _HIDDEN = flag("--include-hidden-nodes", help="Consider hidden nodes as well")
-_NODE = (
-    add_graph_arguments,
-    argument("node_name", help="Name of the ROS node"),
-    _HIDDEN,
-    argument("--timeout", metavar="N", type=int, default=1,
-             help="Wait for N seconds until node becomes available (default 1 seconds)"),
+_NODE = (add_graph_arguments, argument("node_name", help="Name of the ROS node"), _HIDDEN)
+_TIMEOUT = argument(
+    "--timeout", metavar="N", type=int, default=1,
+    help="Wait for N seconds until node becomes available (default 1 seconds)",
 )  # fmt: skip
 _PARAMETER = (*_NODE, argument("parameter_name", help="Name of the parameter"))
 VERBS = {
-    "delete": Verb("Delete parameter", _delete, *_PARAMETER),
+    "delete": Verb("Delete parameter", _delete, *_PARAMETER, _TIMEOUT),
     "describe": Verb(
         "Show descriptive information about declared parameters",
-        _describe, *_NODE, argument("parameter_names", nargs="+", help="Names of the parameters")
+        _describe,
+        *_NODE,
+        argument("parameter_names", nargs="+", help="Names of the parameters"),
+        _TIMEOUT,
     ),
-    "dump": Verb("Show all of the parameters of a node in a YAML file format", _dump, *_NODE),
+    "dump": Verb(
+        "Show all of the parameters of a node in a YAML file format", _dump, *_NODE, _TIMEOUT
+    ),
     "get": Verb(
         "Get parameter",
-        _get, *_PARAMETER, flag("--hide-type", help="Hide the type information"),
+        _get,
+        *_PARAMETER,
+        flag("--hide-type", help="Hide the type information"),
+        _TIMEOUT,
     ),
     "list": Verb(
         "Output a list of available parameters",
         _list,
         add_graph_arguments,
         argument("node_name", nargs="?", help="Name of the ROS node"),
+        argument("--filter", nargs=1,
+                 help="Only list parameters that begin with a match of the regex"),
         _HIDDEN,
         argument("--param-prefixes", nargs="+", default=[],
                  help="Only list parameters with the provided prefixes"),
         flag("--param-type", help="Print parameter types"),
-        argument("--filter", help="Only list parameters matching the provided regex"),
     ),
     "load": Verb(
         "Load parameter file for a node",
@@ -378,9 +440,10 @@ VERBS = {
         argument("parameter_file", help="Parameter file"),
         flag("--no-use-wildcard",
              help="Do not load parameters in the '/**' namespace into the node"),
+        _TIMEOUT,
     ),
     "set": Verb(
         "Set parameter",
-        _set, *_PARAMETER, argument("value", help="Value of the parameter"),
+        _set, *_PARAMETER, argument("value", help="Value of the parameter"), _TIMEOUT,
     ),
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""Implement `ros2 pkg`: list packages, and create ament_python packages."""
+"""Implement `ros2 pkg`: list packages, and create new ones."""
 
 from __future__ import annotations
 
@@ -35,38 +35,34 @@ def _prefix(args: Namespace) -> None:
 
 
 def _xml(args: Namespace) -> None:
+    from xml.etree import ElementTree
+
     prefix = package_prefix(args.package_name, "Package not found")
-    text, root = read_manifest(prefix / "share" / args.package_name / "package.xml")
+    manifest = read_manifest(prefix / "share" / args.package_name / "package.xml")
     if args.tag is None:
-        print(text)
+        ElementTree.dump(manifest)
         return
-    found = [child.text or "" for child in root if child.tag == args.tag]
+    found = [child.text for child in manifest if child.tag == args.tag]
     if not found:
-        raise CommandError(
-            f"Could not find tag '{args.tag}' in the manifest of '{args.package_name}'",
-            did_you_mean(args.tag, {str(child.tag) for child in root}),
-        )
-    print("\n".join(found))
+        tags = {str(child.tag) for child in manifest}
+        raise CommandError("XML tag not found", did_you_mean(args.tag, tags))
+    print(*found, sep="\n")
 
 
-def read_manifest(path: Path) -> tuple[str, ElementTree.Element]:
-    """Return the text of the root element as it is written, and the element.
+def read_manifest(path: Path) -> ElementTree.Element:
+    """Return the root element of a package's manifest.
 
     Raises:
         CommandError: If the file is missing or is no XML.
     """
-    import re
     from xml.etree import ElementTree
 
     try:
-        data = path.read_text(encoding="utf-8")
-        root = ElementTree.fromstring(data.encode())
+        return ElementTree.parse(path).getroot()
     except OSError:
         raise CommandError("Package XML manifest not found", f"There is no {path}.") from None
     except (ElementTree.ParseError, ValueError) as error:
         raise CommandError(f"The manifest {path} is not valid XML: {error}") from None
-    found = re.search(r"<package[\s>].*</package\s*>", data, re.DOTALL)
-    return (found[0] if found else data.strip()), root
 
 
 def _create(args: Namespace) -> None:
@@ -93,7 +89,7 @@ VERBS = {
                  help="Directory where to create the package directory"),
         argument("--build-type", default="ament_cmake",
                  choices=["cmake", "ament_cmake", "ament_python"],
-                 help="The build type to process the package with (here: ament_python)"),
+                 help="The build type to process the package with (here: not cmake)"),
         argument("--dependencies", nargs="+", default=[], help="list of dependencies"),
         argument("--maintainer-email", help="email address of the maintainer of this package"),
         argument("--maintainer-name", help="name of the maintainer of this package"),

@@ -36,7 +36,7 @@ def _main(args: Namespace) -> int:
         prefix = shlex.split(args.prefix or "")
     except ValueError as error:
         raise CommandError(f"--prefix {args.prefix!r} cannot be read: {error}") from None
-    return run_child([*prefix, *startable(path), *rest])
+    return run_child([*prefix, *startable(path), *rest], is_prefixed=bool(prefix))
 
 
 def startable(path: Path) -> list[str]:
@@ -60,7 +60,8 @@ def find_executable(package: str, name: str) -> Path:
     offered = executables(prefix, package)
     found = [path for path in offered if path.name == name]
     if len(found) > 1:
-        raise CommandError("Multiple executables found:", *(f"- {path}" for path in found))
+        paths = "".join(f"\n- {path}" for path in found)
+        raise CommandError(f"Multiple executables found:{paths}")
     if not found:
         raise CommandError("No executable found", *_why_not_found(prefix, package, name, offered))
     return found[0]
@@ -136,8 +137,12 @@ class GroupWatch:
         os.waitpid(self._pid, 0)
 
 
-def run_child(command: Sequence[str]) -> int:
+def run_child(command: Sequence[str], is_prefixed: bool = False) -> int:
     """Run a program with this one's input and output, and wait for it.
+
+    Args:
+        command: The program and its arguments.
+        is_prefixed: Whether the program is that of `--prefix`, which starts the executable.
 
     Returns:
         Its exit code, or 256 minus the number of the signal that ended it.
@@ -151,13 +156,15 @@ def run_child(command: Sequence[str]) -> int:
     try:
         # The watch is there first, so that it misses no signal that the program gets.
         with GroupWatch() as watch:
-            code = _wait(_start(command, before), watch)
+            code = _wait(_start(command, before, is_prefixed), watch)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
     return _report(code)
 
 
-def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[bytes]:
+def _start(
+    command: Sequence[str], mask: Collection[int], is_prefixed: bool
+) -> subprocess.Popen[bytes]:
     def unblock() -> None:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
@@ -165,26 +172,39 @@ def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[by
         # One thread only and nothing but a system call in between, so preexec_fn is safe.
         return subprocess.Popen(list(command), preexec_fn=unblock)
     except OSError as error:
-        raise CommandError(
-            f"Failed to start {command[0]}: {error.strerror}",
-            "The first line of a program names what runs it, such as:  #!/usr/bin/env python3",
-        ) from None
+        why = "The first line of a program names what runs it, such as:  #!/usr/bin/env python3"
+        if is_prefixed:
+            why = (
+                f"--prefix begins with '{command[0]}', and this terminal cannot run a program of "
+                "that name. Install it, or leave --prefix out."
+            )
+        raise CommandError(f"Failed to start {command[0]}: {error.strerror}", why) from None
 
 
 def _wait(process: subprocess.Popen[bytes], watch: GroupWatch) -> int:
-    for_the_group: set[int] = set()
+    awaited = PASSED_ON | {signal.SIGCHLD}
+    for_the_group: dict[int, tuple[int, float]] = {}
     while (code := process.poll()) is None:
-        info = signal.sigwaitinfo(PASSED_ON | {signal.SIGCHLD})
+        info = signal.sigwaitinfo(awaited)
         number = info.si_signo
         if number == signal.SIGCHLD or info.si_code == _FROM_KERNEL:
             continue
         # What waits in the watch stays there, so of each signal only the first tells anything;
         # the same one again is passed on: somebody insists.
         if number not in for_the_group and watch.has_seen(number):
-            for_the_group.add(number)
-        else:
+            # `timeout` sends its signal to this process, and then to the whole group.
+            twice = signal.sigtimedwait({number}, 0) if number in signal.sigpending() else None
+            if twice is not None and twice.si_pid != info.si_pid:
+                process.send_signal(number)
+            for_the_group[number] = (info.si_pid, time.monotonic() + _LATER)
+        elif not _is_the_same(info, for_the_group.get(number)):
             process.send_signal(number)
     return code
+
+
+def _is_the_same(info: signal.struct_siginfo, before: tuple[int, float] | None) -> bool:
+    """Return whether a signal is the second half of one that the group got just before."""
+    return before is not None and info.si_pid == before[0] and time.monotonic() < before[1]
 
 
 def _report(code: int) -> int:

@@ -2,40 +2,41 @@
 
 from __future__ import annotations
 
-import sys
 from argparse import SUPPRESS, Namespace
-from functools import partial
 from typing import Any
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.messages import (
     add_style_arguments,
-    add_value_arguments,
     fill,
     plain_to_yaml,
     read_yaml,
     style_of,
     to_csv,
     to_plain,
+    value_arguments,
     value_text,
 )
 from ros2_command.names import (
     Entries,
-    absolute,
     check_name,
+    class_in_graph,
     full_type,
+    is_hidden,
     of_type,
-    pick,
     show_entries,
+    show_types,
     type_class,
+    types_of,
     visible,
     wait_for_server,
 )
-from ros2_command.qos import add_qos_arguments, asked_profile
 from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 
+#: Seconds that the publisher of a service's events may take to be seen.
+_LOOK_FOR_EVENTS = 0.5
 _COUNT = flag("-c", "--count-services", help="Only display the number of services discovered")
 # Without a default, what stands before the verb counts, too.
 _HIDDEN = argument(
@@ -59,7 +60,14 @@ def _list(args: Namespace) -> None:
 def _type(args: Namespace) -> None:
     with open_graph() as graph:
         services = _services(graph)
-    _, types = pick(args.service_name, services, f"Unknown service '{args.service_name}'")
+    name = args.service_name
+    types = types_of(name, services, f"Unknown service '{name}'", silent=True)
+    if is_hidden(name) and not args.include_hidden_services:
+        raise CommandError(
+            "",
+            f"The service '{name}' is hidden: a part of its name begins with '_'.",
+            f"Its type:  ros2 service --include-hidden-services type {name}",
+        )
     print("\n".join(types))
 
 
@@ -72,8 +80,9 @@ def _find(args: Namespace) -> None:
 
 def _info(args: Namespace) -> None:
     with open_graph(args) as graph:
-        complaint = f"Unknown service '{args.service_name}'"
-        name, types = pick(args.service_name, _services(graph), complaint)
+        name = args.service_name
+        services = visible(_services(graph), args.include_hidden_services)
+        types = types_of(name, services, f"Unknown service '{name}'")
         clients, servers = graph.node.count_clients(name), graph.node.count_services(name)
     print("Type:", types[0] if len(types) == 1 else types)
     print("Clients count:", clients)
@@ -86,7 +95,7 @@ def _call(args: Namespace) -> None:
     check_name("service", args.service_name)
     kind = type_class(args.service_type, "srv")
     request = kind.Request()
-    stampers = fill(request, read_yaml(value_text(args.values, args.stdin)))
+    fill(request, read_yaml(value_text(args.values, args.stdin)), stamps=False)
     with open_graph() as graph:
         client = graph.node.create_client(kind, args.service_name)
         if not client.service_is_ready():
@@ -96,8 +105,6 @@ def _call(args: Namespace) -> None:
                 graph, client.service_is_ready, "service", args.service_name, asked, graph.services
             )
         for _ in graph.ticks(1 / (args.rate or 1)):
-            for stamp in stampers:
-                stamp(graph.node.get_clock().now().to_msg())
             print(f"requester: making request: {request!r}\n")
             print(f"response:\n{ask(graph, client, request)!r}\n")
             if args.rate is None:
@@ -119,22 +126,13 @@ def ask(graph: Graph, client: Untyped, request: Untyped, seconds: float | None =
 
 
 def _echo(args: Namespace) -> None:
-    check_name("service", args.service_name)
-    with open_graph(args) as graph:
-        services = _services(graph)
-        complaint = "Could not determine the type for the passed service"
-        name = absolute(args.service_name)
-        if args.service_type is None:
-            name, types = pick(args.service_name, services, complaint)
-            args.service_type = types[0]
-        kind = type_class(args.service_type, "srv").Event
-        topic, style = f"{name}/_service_event", style_of(args)
-        if topic not in dict(graph.topics()):
-            print(
-                f"No node publishes the events of calls to '{name}' yet. A service or a client "
-                "does after configure_introspection(). Waiting.",
-                file=sys.stderr,
-            )
+    from rclpy.qos import QoSPresetProfiles
+
+    name, style = args.service_name, style_of(args)
+    check_name("service", name)
+    with open_graph() as graph:
+        kind = _service_class(graph, args).Event
+        topic = f"{name}/_service_event"
 
         def show(message: Untyped) -> None:
             if args.csv:
@@ -144,8 +142,33 @@ def _echo(args: Namespace) -> None:
             plain["info"]["event_type"] = _EVENTS[message.info.event_type]
             print(plain_to_yaml(plain, style.flow) + "---")
 
-        graph.node.create_subscription(kind, topic, show, asked_profile(args, "services_default"))
+        profile = QoSPresetProfiles.get_from_short_key("services_default")
+        events = graph.node.create_subscription(kind, topic, show, profile)
+        if not graph.spin_until(events.get_publisher_count, _LOOK_FOR_EVENTS):
+            print(
+                f"No publishers on topic '{topic}'; is service introspection on the client or "
+                "server enabled?"
+            )
+            note("It is after configure_introspection(...) of a service or a client.")
         graph.spin_until(lambda: False)
+
+
+def _service_class(graph: Graph, args: Namespace) -> Untyped:
+    """Return the class of the service that is to be listened to.
+
+    Raises:
+        CommandError: If it cannot be known, or this terminal cannot load it.
+    """
+    name = args.service_name
+    if args.service_type is not None:
+        return class_in_graph(args.service_type, "srv", "")
+    types = types_of(name, _services(graph), f"Cannot find type for '{name}'")
+    if len(types) > 1:
+        raise CommandError(
+            f"More than one type associated with service '{name}'",
+            f"They are {show_types(types)}. Give the one that you want after the service.",
+        )
+    return class_in_graph(types[0], "srv", f"The service '{name}'")
 
 
 #: Words for the values of `service_msgs/msg/ServiceEventInfo.event_type`.
@@ -157,19 +180,16 @@ VERBS = {
         _call,
         argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')"),
         argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"),
-        partial(add_value_arguments, name="values",
-                about="Values to fill the service request with in YAML format"),
+        value_arguments("values", "Values to fill the service request with in YAML format"),
         argument("-r", "--rate", metavar="N", type=float,
                  help="Repeat the call at a specific rate in Hz"),
     ),
     "echo": Verb(
         "Echo a service",
         _echo,
-        add_graph_arguments,
         argument("service_name", help="Name of the ROS service to echo (e.g. '/add_two_ints')"),
         argument("service_type", nargs="?",
                  help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"),
-        partial(add_qos_arguments, entity="subscribe", profile="services_default"),
         add_style_arguments,
     ),
     "find": Verb(

@@ -8,14 +8,14 @@ from argparse import SUPPRESS, ArgumentTypeError, Namespace
 from collections import deque
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import count
 from typing import Any
 
-from ros2_command.errors import CommandError
+from ros2_command.errors import CommandError, note
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.messages import (
     Stamper,
     add_style_arguments,
-    add_value_arguments,
     fill,
     is_message_value,
     plain_to_yaml,
@@ -23,6 +23,7 @@ from ros2_command.messages import (
     style_of,
     to_csv,
     to_yaml,
+    value_arguments,
     value_text,
 )
 from ros2_command.names import (
@@ -33,15 +34,15 @@ from ros2_command.names import (
     did_you_mean,
     is_hidden,
     of_type,
-    pick,
     show_entries,
     show_types,
     suggestion,
     topic_class,
     type_class,
+    types_of,
     visible,
 )
-from ros2_command.qos import add_qos_arguments, asked_profile, follow_publishers
+from ros2_command.qos import add_qos_arguments, asked_profile, chosen_profile
 from ros2_command.registry import Argument, Verb, argument, flag, one_of
 from ros2_command.untyped import Untyped
 
@@ -82,9 +83,11 @@ def _details(graph: Graph, topics: Entries) -> list[str]:
 def _type(args: Namespace) -> None:
     with open_graph(args) as graph:
         topics = graph.settle().topics()
-    name, types = pick(args.topic_name, topics, f"Unknown topic '{args.topic_name}'")
+    name = args.topic_name
+    types = types_of(name, topics, f"Unknown topic '{name}'", silent=True)
     if is_hidden(name) and not args.include_hidden_topics:
         raise CommandError(
+            "",
             f"The topic '{name}' is hidden: a part of its name begins with '_'.",
             f"Its type:  ros2 topic --include-hidden-topics type {name}",
         )
@@ -101,7 +104,8 @@ def _find(args: Namespace) -> None:
 def _info(args: Namespace) -> None:
     with open_graph(args) as graph:
         topics = graph.settle().topics()
-        name, types = pick(args.topic_name, topics, f"Unknown topic '{args.topic_name}'")
+        name = args.topic_name
+        types = types_of(name, topics, f"Unknown topic '{name}'")
         publishers = graph.others(graph.publishers(name))
         subscriptions = graph.others(graph.subscriptions(name))
     end = "\n\n" if args.verbose else "\n"
@@ -178,26 +182,25 @@ def _echo(args: Namespace) -> None:
         kind = topic_class(args.topic_name, args.message_type, graph)
         publishers = _publishers(graph, name)
         if not publishers and args.timeout is None:
-            print(f"No node publishes on '{args.topic_name}' yet. Waiting.", file=sys.stderr)
-        profile = asked_profile(args, "sensor_data")
-        follow_publishers(profile, args, publishers)
-        count = 0
+            note(f"No node publishes on '{args.topic_name}' yet. Waiting.")
+        profile = chosen_profile(args, publishers)
+        shown = 0
 
         def show(message: Untyped, info: dict[str, Any]) -> None:
-            nonlocal count
-            if count and args.once:
+            nonlocal shown
+            if shown and args.once:
                 return
             value = message
             if args.field is not None and not args.raw:
                 value = selected(message, args.field)
             # As upstream does: with --field, the filter's m is that field.
             if args.raw or wanted(value):
-                count += 1
+                shown += 1
                 sys.stdout.write(_text_of(value, info, args))
 
         lost = None if args.no_lost_messages else _report_loss
         subscribe(graph, args.topic_name, kind, show, profile, args.raw, lost)
-        graph.spin_until(lambda: bool(count and args.once), args.timeout)
+        graph.spin_until(lambda: bool(shown and args.once), args.timeout)
 
 
 def _publishers(graph: Graph, name: str) -> list[Any]:
@@ -206,8 +209,8 @@ def _publishers(graph: Graph, name: str) -> list[Any]:
 
 def _report_loss(event: Untyped) -> None:
     print(
-        f"{event.total_count_change} message(s) lost, {event.total_count} in total",
-        file=sys.stderr,
+        f"A message was lost!!!\n\ttotal count change:{event.total_count_change}\n\t"
+        f"total count: {event.total_count}---"
     )
 
 
@@ -243,13 +246,16 @@ def selected(message: Untyped, field: str) -> Untyped:
     Raises:
         CommandError: If there is none of that name.
     """
-    value = message
-    for name in field.split("."):
+    value, names = message, [name for name in field.split(".") if name]
+    for name in names:
         known = value.get_fields_and_field_types() if is_message_value(value) else {}
         if name not in known:
+            kind = type(value)
+            plain = kind.__module__ == "builtins" or is_message_value(value)
+            module = "" if plain else f"{kind.__module__}."
             raise CommandError(
-                f"Invalid field '{field}': '{type(value).__name__}' object has no attribute "
-                f"'{name}'",
+                f"Invalid field '{'.'.join(names)}': '{module}{kind.__name__}' object has no "
+                f"attribute '{name}'",
                 did_you_mean(name, known, f"It has: {', '.join(known)}" if known else ""),
             )
         value = getattr(value, name)
@@ -262,14 +268,15 @@ def _positive(text: str) -> int:
     return int(text)
 
 
-def _measured(about: str, window: int) -> tuple[Argument, ...]:
+def _measured(name: str, about: str, window: int, *more: Argument) -> tuple[Argument, ...]:
     """Return the arguments of the verbs that measure a topic."""
     return (
-        argument("topic_name", help=about),
+        argument(name, help=about),
         argument(
             "--window", "-w", type=_positive, default=window, metavar="WINDOW",
             help=f"window size, in # of messages, for calculating rate (default: {window})",
         ),
+        *more,
         partial(add_graph_arguments, daemon=False),
     )  # fmt: skip
 
@@ -389,7 +396,7 @@ def _known_class(graph: Graph, topic: str) -> Untyped:
     graph.settle(there)
     if not there():
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
-        print(suggestion(name, dict(graph.topics())), file=sys.stderr)
+        note(suggestion(name, dict(graph.topics())))
         graph.spin_until(there)
     return topic_class(topic, None, graph)
 
@@ -408,32 +415,32 @@ def _hz(args: Namespace) -> None:
         kind = _known_class(graph, args.topic_name)
         clock = time.monotonic if args.wall_time else graph.clock()
 
-        def count(message: Untyped, info: dict[str, Any]) -> None:
+        def measure(message: Untyped, info: dict[str, Any]) -> None:
             if (now := clock()) and wanted(message):  # 0 is simulated time that has not begun
                 rates.arrived(now)
 
-        subscribe(graph, args.topic_name, kind, count)
+        subscribe(graph, args.topic_name, kind, measure)
         _measure(graph, rates.report)
 
 
 def _bw(args: Namespace) -> None:
     bandwidth = Bandwidth(args.window)
     with open_graph(args) as graph:
-        kind, clock = _known_class(graph, args.topic_name), graph.clock()
+        kind, clock = _known_class(graph, args.topic), graph.clock()
 
-        def note(data: bytes, info: dict[str, Any]) -> None:
+        def measure(data: bytes, info: dict[str, Any]) -> None:
             if now := clock():
                 bandwidth.arrived(now, len(data))
 
-        subscribe(graph, args.topic_name, kind, note, raw=True)
-        print(f"Subscribed to [{args.topic_name}]")
+        subscribe(graph, args.topic, kind, measure, raw=True)
+        print(f"Subscribed to [{args.topic}]")
         _measure(graph, lambda: bandwidth.report(clock()))
 
 
 def _delay(args: Namespace) -> None:
     delays = Delays(args.window)
     with open_graph(args) as graph:
-        kind, clock = _known_class(graph, args.topic_name), graph.node.get_clock()
+        kind, clock = _known_class(graph, args.topic), graph.node.get_clock()
         known = kind.get_fields_and_field_types()
         if known.get("header") != "std_msgs/Header":
             raise CommandError(
@@ -442,17 +449,20 @@ def _delay(args: Namespace) -> None:
                 f"This one has: {', '.join(known) or 'no fields'}.",
             )
 
-        def note(message: Untyped, info: dict[str, Any]) -> None:
+        def compare(message: Untyped, info: dict[str, Any]) -> None:
             stamp = message.header.stamp
             if now := clock.now().nanoseconds:
                 delays.arrived(now / 1e9, stamp.sec + stamp.nanosec / 1e9)
 
-        subscribe(graph, args.topic_name, kind, note)
+        subscribe(graph, args.topic, kind, compare)
         _measure(graph, delays.report)
 
 
 def _positive_float(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        raise ArgumentTypeError("Expects a floating point number") from None
     if not value > 0:
         raise ArgumentTypeError("Value must be positive")
     return value
@@ -485,7 +495,7 @@ def _pub(args: Namespace) -> None:
             "--once or --times"
         )
     with open_graph(args, args.node_name) as graph:
-        profile = asked_profile(args, "default")
+        profile = asked_profile(args)
         publisher = graph.node.create_publisher(kind, args.topic_name, profile)
         _wait_for_subscriptions(graph, publisher, args, needed)
         _publish(graph, publisher, args, message, stampers, times)
@@ -498,20 +508,21 @@ def _wait_for_subscriptions(graph: Graph, publisher: Untyped, args: Namespace, n
     def enough() -> bool:
         return int(publisher.get_subscription_count()) >= needed
 
-    rounds = 0
-    while not enough():
+    for seconds in count():
+        if enough():
+            return
         left = None if end is None else end - time.monotonic()
-        if left is not None and left <= 0:
+        print(f"Waiting for at least {needed} matching subscription(s)...")
+        if left is None or left > 0:
+            graph.spin_until(enough, 1.0 if left is None else min(1.0, left))
+        if not enough() and seconds + 1 == _HINT_AFTER:
+            note(_why_nobody(graph, args.topic_name))
+        if not enough() and limit is not None and seconds + 1 > limit:
             raise CommandError(
                 f"Timed out waiting for subscribers: Expected {needed} subcribers but only got "
                 f"{publisher.get_subscription_count()} subscribers",
-                *([] if rounds > _HINT_AFTER else [_why_nobody(graph, args.topic_name)]),
+                *([] if seconds + 1 >= _HINT_AFTER else [_why_nobody(graph, args.topic_name)]),
             )
-        print(f"Waiting for at least {needed} matching subscription(s)...")
-        graph.spin_until(enough, 1.0 if left is None else min(1.0, left))
-        rounds += 1
-        if rounds == _HINT_AFTER and not enough():
-            print(_why_nobody(graph, args.topic_name), file=sys.stderr)
 
 
 #: Seconds after which a publisher without subscriptions says why that may be so.
@@ -535,13 +546,13 @@ def _publish(
     from rclpy.duration import Duration
 
     print("publisher: beginning loop")
-    for count, _ in enumerate(graph.ticks(1 / args.rate), start=1):
+    for number, _ in enumerate(graph.ticks(1 / args.rate), start=1):
         for stamp in stampers:
             stamp(graph.node.get_clock().now().to_msg())
-        if args.print_every and count % args.print_every == 0:
-            print(f"publishing #{count}: {message!r}\n")
+        if args.print_every and number % args.print_every == 0:
+            print(f"publishing #{number}: {message!r}\n")
         publisher.publish(message)
-        if count == times:
+        if number == times:
             break
     publisher.wait_for_all_acked(Duration(seconds=max(0.0, args.keep_alive)))
     time.sleep(max(0.0, args.keep_alive))
@@ -550,11 +561,11 @@ def _publish(
 VERBS = {
     "bw": Verb(
         "Display bandwidth used by topic",
-        _bw, *_measured("Topic name to monitor for bandwidth utilization", 100),
+        _bw, *_measured("topic", "Topic name to monitor for bandwidth utilization", 100),
     ),
     "delay": Verb(
         "Display delay of topic from timestamp in header",
-        _delay, *_measured("Topic name to calculate the delay for", 10000),
+        _delay, *_measured("topic", "Topic name to calculate the delay for", 10000),
     ),
     "echo": Verb(
         "Output messages from a topic",
@@ -564,16 +575,18 @@ VERBS = {
         argument("message_type", nargs="?",
                  help="Type of the ROS message (e.g. 'std_msgs/msg/String')"),
         partial(add_qos_arguments, entity="subscribe", profile="sensor_data"),
-        argument("--field", help="Echo a selected field of a message (e.g. 'pose.pose')"),
-        add_style_arguments,
+        partial(
+            add_style_arguments,
+            field=argument("--field", help="Echo a selected field of a message (e.g. 'pose.pose')"),
+        ),
         flag("--no-lost-messages", help="Don't report when a message is lost"),
         flag("--raw", help="Echo the raw binary representation"),
-        argument("--filter", metavar="FILTER", dest="filter_expr",
+        argument("--filter", dest="filter_expr",
                  help="Python expression that selects messages ('m': the message or its field)"),
         flag("--once", help="Print the first message received and then exit."),
-        argument("--timeout", metavar="N", type=float,
+        argument("--timeout", metavar="N", type=_positive_float,
                  help="Set a timeout in seconds for waiting"),
-        flag("-i", "--include-message-info", help="Shows the associated info"),
+        flag("--include-message-info", "-i", help="Shows the associated info"),
     ),
     "find": Verb(
         "Output a list of available topics of a given type",
@@ -587,17 +600,19 @@ VERBS = {
     "hz": Verb(
         "Print the average publishing rate to screen",
         _hz,
-        *_measured("Name of the ROS topic to listen to (e.g. '/chatter')", 10000),
-        argument("--filter", dest="filter_expr", metavar="EXPR",
-                 help="only measure messages matching this Python expression"),
-        flag("--wall-time", help="calculates rate using wall time"),
+        *_measured(
+            "topic_name", "Name of the ROS topic to listen to (e.g. '/chatter')", 10000,
+            argument("--filter", dest="filter_expr", metavar="EXPR",
+                     help="only measure messages matching this Python expression"),
+            flag("--wall-time", help="calculates rate using wall time"),
+        ),
     ),
     "info": Verb(
         "Print information about a topic",
         _info,
         add_graph_arguments,
         argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')"),
-        flag("-v", "--verbose",
+        flag("--verbose", "-v",
              help="Prints detailed information like the node name, node namespace, topic type, "
              "topic type hash, topic endpoint type, GID and QoS Profile of the publishers and "
              "subscribers to this topic"),
@@ -616,8 +631,7 @@ VERBS = {
         _pub,
         argument("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')"),
         argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')"),
-        partial(add_value_arguments, name="values",
-                about="Values to fill the message with in YAML format"),
+        value_arguments("values", "Values to fill the message with in YAML format"),
         argument("-r", "--rate", metavar="N", type=_positive_float, default=1.0,
                  help="Publishing rate in Hz (default: 1)"),
         argument("-p", "--print", metavar="N", type=int, default=1, dest="print_every",
@@ -632,7 +646,7 @@ VERBS = {
                  "(default: 1 with --once or --times, else 0)"),
         argument("--max-wait-time-secs", type=_positive_float,
                  help="Maximum seconds to wait for matching subscriptions"),
-        argument("--keep-alive", metavar="N", type=float, default=0.1,
+        argument("--keep-alive", metavar="N", type=_positive_float, default=0.1,
                  help="Keep the node alive for N seconds after the last message (default: 0.1)"),
         argument("-n", "--node-name", help="Name of the created publishing node"),
         partial(add_qos_arguments, entity="publish", profile="default"),

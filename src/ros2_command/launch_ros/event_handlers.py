@@ -1,0 +1,5 @@
+"""Refuse what handles the states of lifecycle nodes."""
+
+from launch.errors import left_out
+
+__getattr__ = left_out(__name__, "OnStateTransition")
