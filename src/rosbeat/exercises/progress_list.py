@@ -51,9 +51,9 @@ class Row:
         return sum(one.status == PASSED for one in self.outcomes)
 
     @property
-    def next_open(self) -> str:
-        """Return the id of the first exercise that is not passed, or an empty text."""
-        return next((one.exercise for one in self.outcomes if one.status != PASSED), "")
+    def open(self) -> list[str]:
+        """Return the ids of the exercises that are not passed, in order."""
+        return [one.exercise for one in self.outcomes if one.status != PASSED]
 
 
 class ProgressList:
@@ -191,11 +191,11 @@ class _Links:
 
 def _head(rows: Sequence[Row], here: Row | None, link: _Links) -> str:
     in_order = [row for part in _in_parts(rows) for row in part]
-    first = next((row for row in in_order if row.next_open), None)
+    first = next((row for row in in_order if row.open), None)
     if first is None:
         onward = "Everything is passed."
     elif first is here:
-        onward = f"Continue here: exercise {first.next_open} on this page."
+        onward = f"Continue here: exercise {first.open[0]} on this page."
     else:
         onward = f"Continue here: <strong>{link(first.page, first.page.heading)}</strong>."
     return f"<p><strong>Your progress:</strong> {summary(rows)}. {onward}</p>"
