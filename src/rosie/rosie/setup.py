@@ -24,6 +24,7 @@ setup(
     extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
+            'computer_thermometer = rosie.computer_thermometer:main',
             'rover = rosie.rover:main',
             'teleop = rosie.teleop:main',
             'thermometer = rosie.thermometer:main',
