@@ -45,11 +45,11 @@ class KeptRun:
     """Hold a run of the whole system that has passed.
 
     Attributes:
-        day: When it was checked, as in 2026-11-25.
+        day: When it was checked.
         run: What became of the package and its programs.
     """
 
-    day: str
+    day: date
     run: SystemRun
 
 
@@ -58,7 +58,7 @@ def keep_run(run: SystemRun) -> None:
     file = progress_file()
     if file.counts:
         head = {"format": _FORMAT, "version": _VERSION}
-        text = records_json.to_json(KeptRun(date.today().isoformat(), run), head)
+        text = records_json.to_json(KeptRun(date.today(), run), head)
         with suppress(OSError):  # that progress cannot be saved was said already
             write(_kept_file(), text.encode())
 
@@ -92,8 +92,8 @@ def _kept_run() -> KeptRun:
 #: Letters of a name: so many fit on the sheet.
 LONGEST_NAME = 60
 _STATEMENT = (
-    "This is a learner's own statement, printed with the command: rosbeat certificate",
-    "An instructor can check it with the command rosbeat grade, which judges the pages again.",
+    "This is a learner's own statement, made with the command rosbeat certificate.",
+    "An instructor can check it with rosbeat grade, which judges the learner's pages again.",
 )
 
 
@@ -184,13 +184,12 @@ def _checked(name: str) -> str:
 def _sentences(kept: KeptRun) -> tuple[str, ...]:
     """Return what was built, and when."""
     found = built(kept.run)
-    day = date.fromisoformat(kept.day)
     core = sum(len(page.exercises) for page in PAGES if not page.elective)
     return (
         f"has passed all {core} exercises in the core of the course rosbeat, and built a robot "
         f"system with ROS\N{NO-BREAK SPACE}2: the nodes {found.sensor} and {found.monitor}, in "
         f"the package {PACKAGE}.",
-        f"On {day:%B} {day.day}, {day.year}, each ran as a process of its own, and "
+        f"On {kept.day:%B} {kept.day.day}, {kept.day.year}, each ran as a process of its own, and "
         f"{count(found.crossed, 'reading')} crossed on /{TOPIC}.",
     )
 

@@ -163,7 +163,10 @@ def test_open_exercises_of_the_core_are_listed_with_their_pages(home, monkeypatc
     assert "What to try:   Open 03_write_a_publisher.ipynb, and go on with exercise 03b." in said
 
 
-@pytest.mark.parametrize("kept", [None, "", '{"format": "another", "version": 1}'])
+OTHER_DAY = '{"format": "rosbeat run of the system", "version": 1, "day": "today", "run": {}}'
+
+
+@pytest.mark.parametrize("kept", [None, "", '{"format": "another", "version": 1}', OTHER_DAY])
 def test_a_run_that_is_not_there_is_asked_for_again(home, capsys, kept):
     pass_core()
     if kept is not None:
