@@ -145,9 +145,10 @@ def _require_core() -> None:
         raise ExerciseError(
             f"There is no certificate yet: {number} of {count(every, 'exercise')} in the core "
             f"{'is' if number == 1 else 'are'} still open.",
-            "It tells what you have built, and is for the whole core. What is missing:"
-            + "".join(f"\n    {page.heading}: {listing(names)}" for page, names in missing),
-            f"Open {missing[0][0].lesson}.ipynb, and go on with exercise {missing[0][1][0]}.",
+            "A certificate is for the whole core. These are missing:"
+            + "".join(f"\n    {page.lesson}.ipynb: {listing(names)}" for page, names in missing),
+            f"Open {missing[0][0].lesson}.ipynb, continue with exercise {missing[0][1][0]}, and "
+            "type the same command when the core is passed.",
         )
 
 
