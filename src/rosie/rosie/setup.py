@@ -6,7 +6,7 @@ package_name = 'rosie'
 
 setup(
     name=package_name,
-    version='0.2.0',
+    version='0.1.1',
     packages=find_packages(exclude=['test']),
     data_files=[
         ('share/ament_index/resource_index/packages',

@@ -83,6 +83,16 @@ def test_it_says_who_has_built_what_and_how_to_check_it(finished, capsys):
     assert printed.endswith(f"{finished / 'certificate.svg'}\n{finished / 'certificate.pdf'}\n")
 
 
+def test_a_run_without_log_lines_is_told_in_words(home, capsys):
+    pass_core()
+    line = "Temperature: 22.13C - Status: Normal\n"
+    keep_run(replace(RUN, sent=(), taken=(), repeated=line * 2))
+    assert run("--name", "Ada") == 0
+    printed = capsys.readouterr().out
+    assert "2 readings crossed on /temperature." in printed
+    assert "none are drawn" in " ".join(text_of(home / "certificate.svg").split())
+
+
 @pytest.mark.parametrize(("paper", "size"), [("a4", (842, 595)), ("letter", (792, 612))])
 def test_it_is_one_sheet_of_paper_across(finished, paper, size):
     assert run("--name", "Ada", "--paper", paper) == 0
