@@ -26,7 +26,8 @@ from reading import HOME_LINK, for_readers  # noqa: E402 - found only from here 
 #: The documents beside the pages, in the order of the sidebar.
 DOCUMENTS = {
     "Help": (
-        "docs/help.md", "docs/glossary.md", "docs/troubleshooting.md", "environment/README.md",
+        "docs/help.md", "docs/cheat_sheet.md", "docs/two_computers.md", "docs/glossary.md",
+        "docs/troubleshooting.md", "environment/README.md",
     ),
     "Your own nodes": ("docs/testing.md",),
     "For instructors": (

@@ -267,14 +267,17 @@ for name in ("monitor", "sensor"):
 # 4. The monitor now prints two lines per second. Stop both programs with `Ctrl` + `C`, and change the period back
 #    to 1.0.
 #
-# You've now done everything that the tutorial does, on your own. The last check looks at the whole system: it
-# builds your package in another place, runs both programs, and checks what they publish, what they log, and how they
-# end. It takes up to half a minute, and also draws which readings crossed from one program to the other.
+# That's everything the tutorial does, and you did it on your own. The last check builds your package in another
+# place, runs both programs, and looks at what they publish, what they log, and how they end. It takes up to half a
+# minute.
 
 # %% tags=["nbval-ignore-output"] shows=true
 check("system", workspace.folder())
 
 # %% [markdown]
+# When the whole core is passed, `rosbeat certificate` in a terminal makes a page to print, with your name and the
+# readings of your run.
+#
 # ## Three questions
 #
 # Choose the best answer to each question. You can try as often as you like.
@@ -296,8 +299,15 @@ quiz("06", "b", "a", "c")
 # Topics are the first of three patterns of communication. **Services** are for questions that have an answer, and
 # **actions** are for work that takes time. Page 12 covers both.
 #
-# This is the end of the tutorial, and of the core of the course. The pages from 07 on are electives: take those that
-# you like. **Next:** [look inside the graph](07_look_inside_the_graph.ipynb), where you examine a running system.
+# This is the end of the tutorial, and of the core: the [cheat sheet](../docs/cheat_sheet.md) has all of it on one page.
+# Two more things to try, if you like:
+#
+# - **Something real.** `ros2 run rosie computer_thermometer` publishes how warm your computer is, and says first
+#   whether it has found a sensor.
+# - **Two computers.** Your monitor can listen to [a friend's sensor](../docs/two_computers.md).
+#
+# The pages from 07 on are electives: take those that you like. **Next:** [look inside the
+# graph](07_look_inside_the_graph.ipynb), where you examine a running system.
 
 # %% shows=true
 progress()

@@ -9,8 +9,8 @@
 # # Find your way
 #
 # Welcome! On these pages, you build a small robot system with ROS 2. Its nodes really run, and each page checks
-# what you write. Take the core pages in order. After the last one, your package is finished, and you can choose
-# among the electives.
+# what you write. Take the core pages in order. After the last one, your package is finished, `rosbeat certificate`
+# in a terminal makes a certificate of what you have built, and you can choose among the electives.
 #
 # The list below shows the whole course, and how far you are. It stays up to date while you work on the pages.
 

@@ -135,6 +135,19 @@ def _progress(options: argparse.Namespace) -> int:
     return 0
 
 
+def _certificate_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--name", default="", metavar="NAME", help="your name, as it is printed (default: asked)")
+    add("--paper", choices=("a4", "letter"), default="a4", help="what it is printed on")
+
+
+def _certificate(options: argparse.Namespace) -> int:
+    from rosbeat.exercises import certificate
+
+    print(certificate.certificate(options.name, options.paper))
+    return 0
+
+
 def _share_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("state", nargs="?", choices=("on", "off"), help="default: say what is shared")
@@ -283,6 +296,10 @@ def _doctor(options: argparse.Namespace) -> int:
 _INSTRUCTORS, _AUTHORS = "instructors", "authors of pages"
 COMMANDS: tuple[Command, ...] = (
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
+    Command(
+        *("certificate", "print what you have built, after the core"),
+        *(_certificate_arguments, _certificate),
+    ),
     Command("explain", "say why nothing arrives on a topic", _explain_arguments, _explain),
     Command("doctor", "say what works here, and how to fix what does not", _no_arguments, _doctor),
     Command("check", "run all checks of a page", _check_arguments, _check),
@@ -402,7 +419,7 @@ def _run(typed: list[str]) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     groups = [
-        "\n".join([f"for {audience}:", *(f"  {one.name:<10}{one.help}" for one in commands)])
+        "\n".join([f"for {audience}:", *(f"  {one.name:<13}{one.help}" for one in commands)])
         for audience, commands in groupby(COMMANDS, lambda command: command.audience)
     ]
     parser = _Parser(

@@ -3,6 +3,7 @@
 import functools
 import http.server
 import os
+import re
 import subprocess
 import threading
 from pathlib import Path
@@ -198,6 +199,22 @@ def test_a_term_says_what_it_means_when_one_points_at_it(site, tab):
     said = tab.locator("a", has_text="random walk").first.get_attribute("title")
     glossary = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
     assert " ".join(glossary.partition("## random walk")[2].split()).startswith(said)
+
+
+#: What is wider than its place on paper, and would be cut off.
+CUT = """() => [...document.querySelectorAll('#cheat-sheet pre, #cheat-sheet table')]
+    .filter(one => one.scrollWidth > one.clientWidth + 1)
+    .map(one => one.outerHTML.slice(0, 120))"""
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+def test_the_cheat_sheet_is_one_sheet_of_paper(site, tab, paper):
+    tab.goto(site[1] + "docs/cheat_sheet.html")
+    printed = tab.pdf(format=paper, prefer_css_page_size=True)
+    assert len(re.findall(rb"/Type /Page\b", printed)) == 1
+    tab.emulate_media(media="print")
+    tab.set_viewport_size({"width": 995, "height": 755})  # of Letter, which is the narrower one
+    assert tab.evaluate(CUT) == []
 
 
 def test_words_are_found(site, tab):

@@ -9,6 +9,7 @@ from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosie.computer_thermometer import ComputerThermometer
 from rosie.rover import Rover
 from rosie.thermometer import Thermometer
 from std_srvs.srv import Empty, SetBool, Trigger
@@ -147,6 +148,59 @@ def test_a_tour_that_makes_no_sense_is_refused(ros, rover, driver, order):
     ros.run(seconds=1)
     assert not accepted.result().accepted
     assert len(warnings_of(ros)) == 1
+
+
+def felt(ros, folder):
+    """What the computer's thermometer logs first, and its readings in three seconds."""
+    ros.add(ComputerThermometer, parameters={"folder": str(folder)})
+    ros.run(seconds=3)
+    readings = [m.data["data"] for m in ros.messages("/rosie/computer_temperature")]
+    return ros.logs()[0].text, readings
+
+
+def sensor(folder, number, kind, temperature):
+    zone = folder / f"thermal_zone{number}"
+    zone.mkdir()
+    (zone / "type").write_text(f"{kind}\n")
+    (zone / "temp").write_text(f"{temperature}\n")
+
+
+def test_the_computers_own_sensor_is_read_and_named(ros, tmp_path):
+    sensor(tmp_path, 0, "acpitz", 27800)
+    sensor(tmp_path, 1, "x86_pkg_temp", 48500)
+    said, readings = felt(ros, tmp_path)
+    assert said == f"Reading a real sensor: x86_pkg_temp, {tmp_path / 'thermal_zone1'}"
+    assert readings == [48.5] * 3
+
+
+def test_any_sensor_is_better_than_none(ros, tmp_path):
+    sensor(tmp_path, 0, "cpu", "broken")
+    sensor(tmp_path, 1, "acpitz", 27800)
+    said, readings = felt(ros, tmp_path)
+    assert "Reading a real sensor: acpitz" in said
+    assert readings == pytest.approx([27.8] * 3)
+
+
+def test_a_reading_that_fails_is_left_out(ros, tmp_path):
+    sensor(tmp_path, 0, "cpu", 40000)
+    felt(ros, tmp_path)
+    (tmp_path / "thermal_zone0" / "temp").unlink()
+    ros.run(seconds=2)
+    assert len(ros.messages("/rosie/computer_temperature")) == 3
+    assert [one.level for one in ros.logs()][-2:] == ["WARN", "WARN"]
+    (tmp_path / "thermal_zone0" / "temp").write_text("41000")
+    ros.run(seconds=1)
+    assert ros.messages("/rosie/computer_temperature")[-1].value == 41.0
+
+
+def test_without_a_sensor_it_says_that_it_simulates_one(ros, tmp_path, monkeypatch):
+    monkeypatch.setattr("os.getloadavg", lambda: (0.0, 0.0, 0.0))
+    said, idle = felt(ros, tmp_path)
+    assert said.startswith(f"Simulating: there is no sensor in {tmp_path}")
+    monkeypatch.setattr("os.getloadavg", lambda: (1000.0, 0.0, 0.0))
+    ros.run(seconds=3)
+    busy = [m.value for m in ros.messages("/rosie/computer_temperature")][3:]
+    assert max(idle) < 45 < 65 < min(busy)
 
 
 @pytest.mark.parametrize(

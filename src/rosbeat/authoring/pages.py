@@ -114,7 +114,8 @@ def read_page(path: Path) -> NotebookNode | None:
 _HELP = "**Help:** " + " \N{MIDDLE DOT} ".join(
     f"[{name}](../docs/{place})"
     for name, place in (
-        *(("glossary", "glossary.md"), ("troubleshooting", "troubleshooting.md")),
+        *(("cheat sheet", "cheat_sheet.md"), ("glossary", "glossary.md")),
+        ("troubleshooting", "troubleshooting.md"),
         *(("keys", "help.md#keys"), ("doctor", "help.md#doctor")),
         ("where to ask", "help.md#where-to-ask"),
     )

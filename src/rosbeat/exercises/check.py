@@ -16,6 +16,7 @@ from IPython.display import display, update_display
 
 from rosbeat.errors import ExerciseError, called_as, explain_interrupt
 from rosbeat.exercises.cells import NOTHING, Cells, Shell, cells_of, worked_on
+from rosbeat.exercises.certificate import keep_run
 from rosbeat.exercises.exercise import PASSED, Exercise, not_attempted
 from rosbeat.exercises.hint import may_reveal, next_hint, reveal
 from rosbeat.exercises.outcome_display import LOOKS, Shown, output_of, words
@@ -24,6 +25,7 @@ from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.exercises.scenarios import Answer, overheard
 from rosbeat.exercises.share import share
+from rosbeat.exercises.system import SystemRun
 from rosbeat.records import Outcome
 from rosbeat.workspace.busy_notice import counting
 from rosbeat.workspace.location import GRADED
@@ -122,7 +124,7 @@ def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Judged:
         KeyboardInterrupt: If Interrupt was pressed.
     """
     is_blank = cells is not None and cells.refuse_stale(found.id)
-    picture = None
+    seen = picture = None
     output: tuple[tuple[str, str], ...] = ()
     if is_blank:
         verdict = found.outcome(not_attempted())
@@ -144,6 +146,8 @@ def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Judged:
         output = output_of(seen, printed, verdict.status)
     standing = progress_file().change(found.id, lambda before: before.after(verdict))
     share(verdict)
+    if verdict.status == PASSED and isinstance(seen, SystemRun):
+        keep_run(seen)
     verdict = _with_hints(verdict, standing.hints) if found.tells_hints else verdict
     return Judged(verdict, picture, output)
 

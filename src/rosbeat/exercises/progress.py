@@ -17,7 +17,7 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.outcome_display import LOOKS
-from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page
+from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page, totals
 from rosbeat.exercises.progress_widget import stored
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page, this_page
 from rosbeat.records import Outcome
@@ -315,13 +315,14 @@ _Row = tuple[str, ...]
 def as_text() -> str:
     """Return the table of all pages, their exercises and the total."""
     standings = progress_file().standings()
-    blocks = [(page.heading, [_row(one, standings) for one in page.exercises]) for page in PAGES]
-    every = [row for _, rows in blocks for row in rows]
+    pages = sorted(PAGES, key=lambda page: page.elective)  # the core first, each in its order
+    blocks = [(page.heading, [_row(one, standings) for one in page.exercises]) for page in pages]
+    every = [row for _, block in blocks for row in block]
     widths = [max(map(len, column)) for column in zip(_HEAD, *every, strict=True)]
     lines = [_line(_HEAD, widths)]
-    for title, rows in blocks:
-        lines += ["", title, *(_line(row, widths) for row in rows)]
-    return "\n".join([*lines, "", _total(as_data(standings))])
+    for title, block in blocks:
+        lines += ["", title, *(_line(row, widths) for row in block)]
+    return "\n".join([*lines, "", *(f"{name}: {said}" for name, said in totals(rows()).items())])
 
 
 def as_json() -> str:
@@ -363,11 +364,3 @@ def _row(exercise: Exercise[Any], standings: Standings) -> _Row:
 
 def _line(row: _Row, widths: list[int]) -> str:
     return "  ".join(part.ljust(width) for part, width in zip(row, widths, strict=True)).rstrip()
-
-
-def _total(data: dict[str, Any]) -> str:
-    there_are = len(data["exercises"])
-    return (
-        f"{data['passed']} of {there_are} exercises passed, "
-        f"{data['points']} of {data['out_of']} points"
-    )

@@ -9,7 +9,7 @@ does those of a markdown cell. In pages that are not trusted its sanitizer leave
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -51,9 +51,9 @@ class Row:
         return sum(one.status == PASSED for one in self.outcomes)
 
     @property
-    def next_open(self) -> str:
-        """Return the id of the first exercise that is not passed, or an empty text."""
-        return next((one.exercise for one in self.outcomes if one.status != PASSED), "")
+    def open(self) -> list[str]:
+        """Return the ids of the exercises that are not passed, in order."""
+        return [one.exercise for one in self.outcomes if one.status != PASSED]
 
 
 class ProgressList:
@@ -128,15 +128,49 @@ def describe(rows: Sequence[Row]) -> str:
 
 
 def summary(rows: Sequence[Row]) -> str:
-    """Tell how many exercises are passed and how many points reached, in words.
+    """Tell how many exercises are passed in words: the core first, and the electives once begun.
 
     Args:
         rows: How far somebody is, for each page.
     """
-    every = [one for row in rows for one in row.outcomes]
-    done = sum(one.status == PASSED for one in every)
-    points, out_of = sum(one.points for one in every), sum(one.out_of for one in every)
-    return f"{done} of {count(len(every), 'exercise')} passed, {points} of {out_of} points"
+    (core_passed, core), (passed, electives) = (_counts(part) for part in _in_parts(rows))
+    said = f"{core_passed} of {count(core, 'exercise')} in the core"
+    if electives and (passed or core_passed == core):
+        said += f", {passed} of {electives} in the electives"
+    return said
+
+
+def totals(rows: Sequence[Row]) -> dict[str, str]:
+    """Tell how many exercises are passed and how many points reached, in each part of the course.
+
+    Args:
+        rows: How far somebody is, for each page.
+    """
+    return {name: _total(part) for name, part in _parts(rows)}
+
+
+def _total(rows: Sequence[Row]) -> str:
+    passed, every = _counts(rows)
+    outcomes = [one for row in rows for one in row.outcomes]
+    points, out_of = sum(one.points for one in outcomes), sum(one.out_of for one in outcomes)
+    return f"{passed} of {count(every, 'exercise')} passed, {points} of {out_of} points"
+
+
+def _counts(rows: Sequence[Row]) -> tuple[int, int]:
+    """Return how many exercises of these pages are passed, and how many there are."""
+    return sum(row.passed for row in rows), sum(len(row.outcomes) for row in rows)
+
+
+def _in_parts(rows: Sequence[Row]) -> tuple[list[Row], list[Row]]:
+    """Return the pages of the core, and the electives."""
+    core, electives = ([row for row in rows if row.page.elective == one] for one in (False, True))
+    return core, electives
+
+
+def _parts(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
+    """Generate the parts of the course that have pages, by name."""
+    names = ("Core pages", "Electives")
+    return ((name, part) for name, part in zip(names, _in_parts(rows), strict=True) if part)
 
 
 # As HTML.
@@ -156,22 +190,15 @@ class _Links:
 
 
 def _head(rows: Sequence[Row], here: Row | None, link: _Links) -> str:
-    first = next((row for row in rows if row.next_open), None)
+    in_order = [row for part in _in_parts(rows) for row in part]
+    first = next((row for row in in_order if row.open), None)
     if first is None:
         onward = "Everything is passed."
     elif first is here:
-        onward = f"Continue here: exercise {first.next_open} on this page."
+        onward = f"Continue here: exercise {first.open[0]} on this page."
     else:
         onward = f"Continue here: <strong>{link(first.page, first.page.heading)}</strong>."
     return f"<p><strong>Your progress:</strong> {summary(rows)}. {onward}</p>"
-
-
-def _parts(rows: Iterable[Row]) -> Iterator[tuple[str, list[Row]]]:
-    rows = list(rows)
-    for name, elective in (("Core pages", False), ("Electives", True)):
-        part = [row for row in rows if row.page.elective == elective]
-        if part:
-            yield name, part
 
 
 def _of_a_page(rows: Sequence[Row], here: Row, link: _Links) -> str:
@@ -200,7 +227,7 @@ def _of_the_course(rows: Sequence[Row], link: _Links) -> str:
     numbered = {row.page.number: row.page for row in rows}
     tables = [
         f'<table style="margin: 0px 0px 8px 0px">\n'
-        f'<caption style="{_LEFT}; font-weight: 600">{name}: {summary(part)}</caption>\n'
+        f'<caption style="{_LEFT}; font-weight: 600">{name}: {_total(part)}</caption>\n'
         f'<thead><tr><th scope="col" style="{_LEFT}">page</th>'
         f'<th scope="col" style="{_LEFT}">exercises</th></tr></thead>\n<tbody>\n'
         + "\n".join(_line(row, numbered, link) for row in part)

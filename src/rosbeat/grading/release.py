@@ -229,7 +229,8 @@ _FOLDERS = (
 )
 _FILES = (
     *("pyproject.toml", "LICENSE", "COLCON_IGNORE"),
-    *("docs/glossary.md", "docs/help.md", "docs/troubleshooting.md"),
+    *("docs/cheat_sheet.md", "docs/glossary.md", "docs/help.md", "docs/troubleshooting.md"),
+    "docs/two_computers.md",
     *(".gitignore", ".gitattributes", ".dockerignore"),
 )
 _CLUTTER = {"__pycache__", ".ipynb_checkpoints", ".mypy_cache", ".ruff_cache", ".DS_Store"}

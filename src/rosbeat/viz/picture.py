@@ -71,18 +71,26 @@ class Picture:
     def __repr__(self) -> str:
         return self.description
 
-    def svg(self) -> str:
-        """Return the picture as SVG, named and described, with colours for light and dark pages."""
+    def svg(self, on_paper: bool = False) -> str:
+        """Return the picture as SVG, named and described.
+
+        Args:
+            on_paper: Whether it has the colours for a light page alone, and does not follow the
+                theme of the page.
+        """
         words = {**_BARE, "Title": self.title}
         # The page may have changed matplotlib's settings; ours hold while we draw.
         with mpl_style.context(["default", theme.RC]), BytesIO() as target:
-            self.figure.savefig(target, format="svg", dpi=theme.DPI, metadata=words)
+            ground = "white" if on_paper else theme.CARD
+            self.figure.savefig(
+                target, format="svg", dpi=theme.DPI, facecolor=ground, metadata=words
+            )
             code = target.getvalue().decode("utf-8")
         code = _UNTURNED.sub("", _NAME.sub("", _HEAD.sub("", code)))
         code = _ELEMENT.sub(lambda found: _shorter(found[0]), _BREAKS.sub("\n", code))
         name = escape(self.description, quote=True)
         code = code.replace("<svg ", f'<svg role="img" aria-label="{name}" ', 1)
-        return code.replace("<defs>", f"<style>{_style(code)}</style><defs>", 1)
+        return code.replace("<defs>", f"<style>{_style(code, on_paper)}</style><defs>", 1)
 
     def html(self) -> str:
         """Return an HTML figure that follows the theme; its image has the description as `alt`."""
@@ -127,8 +135,11 @@ def _shorter(element: str) -> str:
     return _DIGITS.sub(lambda found: f"{round(float(found[0]), 2) + 0.0:.7g}", element)
 
 
-def _style(code: str) -> str:
+def _style(code: str, on_paper: bool) -> str:
     """Return the rules for an SVG: its font, and the dark counterpart of each of its colours."""
+    font = f"text{{font-family:{theme.FONTS}!important}}"
+    if on_paper:
+        return font
     dark = {light.lower(): one.lower() for light, one in theme.DARK.items()}
     rules = (
         f'[style*="{part}: {one}"]{{{part}:{dark[one]}!important}}'
@@ -136,5 +147,4 @@ def _style(code: str) -> str:
         for part in ("fill", "stroke")
         if f"{part}: {one}" in code
     )
-    font = f"text{{font-family:{theme.FONTS}!important}}"
     return f"{font}@media (prefers-color-scheme: dark){{{''.join(rules)}}}"

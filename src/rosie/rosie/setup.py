@@ -6,7 +6,7 @@ package_name = 'rosie'
 
 setup(
     name=package_name,
-    version='0.1.0',
+    version='0.1.1',
     packages=find_packages(exclude=['test']),
     data_files=[
         ('share/ament_index/resource_index/packages',
@@ -24,6 +24,7 @@ setup(
     extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
+            'computer_thermometer = rosie.computer_thermometer:main',
             'rover = rosie.rover:main',
             'teleop = rosie.teleop:main',
             'thermometer = rosie.thermometer:main',

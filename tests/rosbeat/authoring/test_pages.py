@@ -72,7 +72,7 @@ def test_a_page_ends_with_links_to_its_neighbours_the_whole_course_and_help(cour
     assert say[:-1] == ["← [00 Hear it](00_hear_it.ipynb) | [The whole course](home.ipynb)"]
     (helping,) = home
     assert hear[-1] == say[-1] == helping
-    names = ["glossary", "troubleshooting", "keys", "doctor", "where to ask"]
+    names = ["cheat sheet", "glossary", "troubleshooting", "keys", "doctor", "where to ask"]
     links = re.findall(r"\[([^\]]+)\]\(\.\./([^)#]+)#?([^)]*)\)", helping)
     assert [name for name, _, _ in links] == names
     for _, place, anchor in links:  # JupyterLab makes anchors of headings as they are

@@ -264,6 +264,9 @@ def test_elsewhere_the_whole_course_is_shown_core_and_electives_apart(open_page)
         (["01"], "01_create_a_workspace", "00 Hear the heartbeat"),
         (["00"], "01_create_a_workspace", "exercise 01a on this page"),
         ([page.number for page in PAGES if page.number], "home", "The whole system"),
+        # The core is finished before the electives begin.
+        (["00", "01", "02", "03", "04", "05", "06"], "home", "The whole system"),
+        (["00", "01", "02", "03", "04", "05", "06", ""], "home", "07 Look inside the graph"),
     ],
 )
 def test_it_says_where_to_go_on(open_page, done, here, onward):
@@ -272,6 +275,35 @@ def test_it_says_where_to_go_on(open_page, done, here, onward):
     found = shown()
     assert found.paragraphs[0].endswith(f"Continue here: {onward}.")
     assert onward in found.links or "on this page" in onward
+
+
+CORE = [one.id for page in PAGES if not page.elective for one in page.exercises]
+ELECTIVES = [one.id for page in PAGES if page.elective for one in page.exercises]
+
+
+@pytest.mark.parametrize(
+    ("done", "said"),
+    [
+        ([], f"0 of {len(CORE)} exercises in the core."),
+        (["00"], f"2 of {len(CORE)} exercises in the core."),
+        # Electives are counted once one of them is passed, or the core is done.
+        (
+            ["00", "07"],
+            f"2 of {len(CORE)} exercises in the core, 3 of {len(ELECTIVES)} in the electives.",
+        ),
+        (
+            ["00", "01", "02", "03", "04", "05", "06", ""],
+            f"{len(CORE)} of {len(CORE)} exercises in the core, 0 of {len(ELECTIVES)} in the "
+            "electives.",
+        ),
+    ],
+)
+@pytest.mark.parametrize("here", ["home", "01_create_a_workspace"])
+def test_the_core_is_counted_first(open_page, done, said, here):
+    open_page(f"{here}.ipynb")
+    pass_all(*done)
+    assert shown().paragraphs[0].startswith(f"Your progress: {said} Continue here:")
+    assert str(progress()).startswith(f"Your progress: {said}")
 
 
 def test_the_list_is_shown_also_where_the_folder_of_the_kernel_is_gone(home, tmp_path, monkeypatch):
@@ -347,7 +379,10 @@ def test_the_table_has_every_page_every_exercise_and_the_total(two_checked, caps
     assert "not there yet" in " ".join(row(text, "00b"))
     assert text.count("2 and the answer") == 1
     assert row(text, "01a")[0] == "○"
-    assert text.splitlines()[-1].startswith(f"1 of {len(EXERCISES)} exercises passed, 1 of ")
+    core, electives = text.splitlines()[-2:]
+    assert core.startswith(f"Core pages: 1 of {len(CORE)} exercises passed, 1 of ")
+    assert electives.startswith(f"Electives: 0 of {len(ELECTIVES)} exercises passed, 0 of ")
+    assert text.index("\nThe whole system\n") < text.index("\n07 ")
 
 
 def test_the_same_as_json(two_checked, capsys):

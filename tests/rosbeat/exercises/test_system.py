@@ -10,6 +10,7 @@ import pytest
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.outcome_display import Shown
 from rosbeat.exercises.scenarios import CommandMeaning
 from rosbeat.exercises.system import MONITOR, SENSOR, run_system
 
@@ -49,6 +50,24 @@ def test_the_listings_of_the_tutorial_pass_and_their_end_is_remarked_upon(seen):
     }
     outcome = SYSTEM.judged(replace(seen, **clean))
     assert (outcome.status, outcome.remarks) == ("passed", ())
+
+
+def test_praise_names_what_was_built_and_counts_what_crossed(seen):
+    arrived = len([one for one in seen.taken if "Status" in one.text])
+    assert arrived >= len(seen.heard) - 1
+    assert str(Shown(SYSTEM.judged(seen))).startswith(
+        "\N{CHECK MARK} Exercise system: passed, 5 of 5 points. You have built a robot system, and "
+        "it works: your node temperature_sensor published on /temperature, and your node "
+        f"temperature_monitor, in another process, received {arrived} readings and judged each of "
+        "them."
+    )
+
+
+def test_nodes_that_log_nothing_are_praised_by_the_names_of_their_programs(seen):
+    praise = SYSTEM.judged(replace(seen, sent=(), taken=())).evidence
+    assert f"your node {SENSOR} published" in praise
+    assert f"your node {MONITOR}, in another process, received" in praise
+    assert f"received {seen.repeated.count('Status')} readings" in praise
 
 
 def test_the_evidence_survives_as_text(seen):
