@@ -6,9 +6,9 @@ import time
 from contextlib import suppress
 from urllib.parse import unquote
 
+from playwright.sync_api import TimeoutError as Late
 from playwright.sync_api import expect
 
-from bank.pages import solution
 from bank.reading import answers
 from bank.workspaces import EXERCISES as DONE_BY_HAND
 from browser.notebook import PATIENCE, SHOWN, Notebook
@@ -28,13 +28,13 @@ OWN = {"06b": ('cd "$ROS2_WORKSPACE/src"\ncolcon build --symlink-install',)}
 #: These wait for a deadline.
 SLOW = {"callback-blocks", "constructor-blocks", "exits"}
 #: A command that a message gives, to be typed as it stands.
-COMMAND = re.compile(r"`((?:cd|rm|mv|touch|sed) [^`]*\"\$ROS2_WORKSPACE\"[^`]*)`")
+COMMAND = re.compile(r'(?:cd|rm|mv|touch|sed) .*"\$ROS2_WORKSPACE"')
 #: One that a remark of a terminal gives.
-SAID = re.compile(r'(?m)^# .*?((?:cd|source) [\w./]*"\$ROS2_WORKSPACE[\w./]*"\S*)')
+SAID = re.compile(r'((?:cd|source) [\w./]*"\$ROS2_WORKSPACE[\w./]*"(?:/[\w/]+)?)')
 #: More cells than this in a row are not a way that a message shows.
 MOST_STEPS = 12
-#: An exit code that a terminal's cell ends with.
-EXIT_CODE = re.compile(r"# exit code (\d+)")
+#: What stands below a command that failed, or went wrong without an error.
+FAILED = re.compile(r"# exit code [1-9]|# .*\$ROS2_WORKSPACE")
 GONE = {"quiz(": "The choices went with the kernel.", "predict(": "The field to predict went"}
 
 
@@ -87,6 +87,11 @@ class Walker:
         """What the lesson says of a cell, such as its `exercise`."""
         return self.cells[number]["metadata"].get("rosbeat", {}).get(what)
 
+    def exercise_of(self, number):
+        """The exercise that a cell answers or checks; None if none, as for the whole system."""
+        found = self.about(number, "exercise") or self.about(number, "check")
+        return None if found == "system" else found
+
     # Cells.
 
     def run(self, number, steps=0, is_wrong=False):
@@ -129,16 +134,18 @@ class Walker:
         return "error" in kinds and not is_meant
 
     def has_failed(self, number):
-        """Whether a command failed that does not fail on the page of the solution."""
+        """Whether a remark names a way, or a command failed, which the solution's do not."""
         cells = (self.notebook.stored(number), self.solved[number]["outputs"])
-        said, usual = (len(EXIT_CODE.findall(json.dumps(outputs))) for outputs in cells)
+        said, usual = (len(FAILED.findall(json.dumps(outputs))) for outputs in cells)
         return said > usual
 
     def type_what_is_said(self, number):
         """Type what a remark below a command says before what the cell has."""
         said = self.notebook.cell(number).locator(".jp-OutputArea").inner_text()
         self.messages.append((number, said))
-        commands = list(dict.fromkeys(SAID.findall(said)))
+        # Remarks are wrapped, and each line of one begins with a sign.
+        remarks = re.sub(r"\s+(?:# )?", " ", said)
+        commands = list(dict.fromkeys(SAID.findall(remarks)))
         assert commands, said
         head, _, rest = self.sources[number].partition("\n")
         self.notebook.write(number, "\n".join([head, *commands, rest]))
@@ -170,10 +177,12 @@ class Walker:
         self.card(check).get_by_role("button", name="Run again").click()
         shown = self.notebook.cell(check).locator(".jp-OutputArea")
         passed = shown.get_by_text(f"Exercise {exercise}: passed")
-        expect(passed.or_(shown.get_by_role("link", name="Go to that cell"))).to_be_visible()
+        link = shown.get_by_role("link", name="Go to that cell")
+        with suppress(Late):
+            passed.or_(link).first.wait_for(timeout=PATIENCE)
         if self.is_led_on(check):
             self.run(check)
-        expect(passed).to_be_visible()
+        self.notebook.says(check, f"Exercise {exercise}: passed")
         expect(self.card(check).get_by_role("button")).to_have_count(0)
         self.is_saved(number, right)
         self.passed.append(exercise)
@@ -190,7 +199,8 @@ class Walker:
 
     def go_back(self, number, check):
         """Type the commands that a message gives, where the answer is typed."""
-        commands = COMMAND.findall(self.notebook.cell(check).inner_text())
+        said = self.notebook.cell(check).locator(".jp-OutputArea code").all_inner_texts()
+        commands = [one for one in said if COMMAND.match(one)]
         if commands:
             head = self.sources[number].partition("\n")[0]
             self.notebook.write(number, "\n".join([head, *commands]))
