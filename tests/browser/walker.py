@@ -9,10 +9,13 @@ from urllib.parse import unquote
 from playwright.sync_api import TimeoutError as Late
 from playwright.sync_api import expect
 
+from bank.conftest import FOLDER
 from bank.reading import answers
 from bank.workspaces import EXERCISES as DONE_BY_HAND
+from bank.workspaces import SAVED_ON, Desk
 from browser.notebook import PATIENCE, SHOWN, Notebook
 from rosbeat.exercises.quiz import QUESTIONS
+from rosbeat.workspace.prerequisites import PACKAGE, finished
 
 #: What stands above an answer of the bank in its cell, for those that are no whole cells.
 ABOVE = {
@@ -198,9 +201,13 @@ class Walker:
         self.card(check).locator("[role=status] strong").first.wait_for()
 
     def go_back(self, number, check):
-        """Type the commands that a message gives, where the answer is typed."""
-        said = self.notebook.cell(check).locator(".jp-OutputArea code").all_inner_texts()
-        commands = [one for one in said if COMMAND.match(one)]
+        """Do what a message says: go to another page, or type commands where the answer is."""
+        shown = self.notebook.cell(check).locator(".jp-OutputArea")
+        for words, paths in SAVED_ON.items():
+            if words in shown.first.inner_text():
+                for path in paths:
+                    Desk(self.lab.root / FOLDER).write(f"src/{PACKAGE}/{path}", finished(path))
+        commands = [one for one in shown.locator("code").all_inner_texts() if COMMAND.match(one)]
         if commands:
             head = self.sources[number].partition("\n")[0]
             self.notebook.write(number, "\n".join([head, *commands]))
