@@ -217,9 +217,7 @@ def happenings(
         _messages(shown, runs),
         tuple(stacked([run for run in runs if run.time_ns <= last])),
         tuple(
-            one
-            for one in seen.logs
-            if _node_of(one) in lanes and since_ns <= one.time_ns <= end
+            one for one in seen.logs if _node_of(one) in lanes and since_ns <= one.time_ns <= end
         ),
         tuple(one for one in seen.faults if one.node in lanes and since_ns <= one.time_ns <= end),
         end / NANOSECONDS,
