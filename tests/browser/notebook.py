@@ -9,7 +9,7 @@ from pathlib import Path
 import nbformat
 
 #: Milliseconds of patience with what a click does, and with a whole page that runs.
-PATIENCE, LONG_PATIENCE = 60_000, 120_000
+PATIENCE, LONG_PATIENCE = 60_000, 240_000
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 #: Notes when a command of JupyterLab, the next one of this name, is done.
 WATCH = """command => {
