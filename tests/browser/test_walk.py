@@ -4,8 +4,7 @@ On each page the kernel starts anew in the middle and at the end, and whoever wa
 they are. They try a wrong answer of the bank before each right one, take a hint, press every
 button, and do what the messages say.
 
-An ordinary run walks through a page of nodes and one of files and terminals, with one wrong answer
-to each exercise. `--thorough` walks through all, with three.
+It takes minutes, so it is left out unless pytest is given `--thorough`.
 """
 
 import sys
@@ -18,14 +17,7 @@ from browser.course import ROOT, open_course
 from browser.notebook import SHOWN, Notebook
 from browser.walker import Walker, wrong_tries
 
-#: In an ordinary run.
-SHORT = ("00", "05")
-PAGES = [
-    path.name
-    if path.name.startswith(SHORT)
-    else pytest.param(path.name, marks=pytest.mark.thorough)
-    for path in sorted((ROOT / "notebooks").glob("0[0-6]_*.ipynb"))
-]
+PAGES = sorted(path.name for path in (ROOT / "notebooks").glob("0[0-6]_*.ipynb"))
 WIDTHS = (390, 720, 1440)
 LIST = f"{SHOWN} .rosbeat-progress-live .rosbeat-progress"
 #: What reaches out of the page, and does not scroll by itself.
@@ -45,6 +37,7 @@ OVERFLOW = """() => {
 
 pytestmark = [
     pytest.mark.ros,
+    pytest.mark.thorough,
     pytest.mark.timeout(900),
     pytest.mark.skipif(Path(sys.prefix) != ROOT / ".venv", reason="needs this checkout's .venv"),
 ]
@@ -70,15 +63,14 @@ def walker(page, lab, request):
 
 
 @pytest.mark.parametrize("walker", PAGES, indirect=True)
-def test_nobody_is_left_stuck(walker, page, course, request):
-    is_thorough = request.config.getoption("--thorough")
+def test_nobody_is_left_stuck(walker, page, course):
     for number in range(len(walker.ids)):
         if number == len(walker.ids) // 2:
             walker.restart()
-        go_on(walker, number, 3 if is_thorough else 1)
+        go_on(walker, number, tries=1)
     walker.restart()
     first, last = min(walker.open), max(walker.open)
-    for number in range(first, last + 1) if is_thorough else (first, last):
+    for number in (first, last):
         if not walker.exercise_of(number):
             walker.run(number)
         if number in walker.open:
