@@ -39,7 +39,9 @@ MAY_IMPORT = {
     "page_cells": {"page_names", "workspace"},
     "page_errors": {"errors", "records", "diagnosis", "page_cells", "page_names"},
     "record_display": {"records"},
-    "page_session": {"errors", "records", "ros", "diagnosis", "inspection", "panel"},
+    "page_session": {
+        *("errors", "records", "ros", "diagnosis", "inspection", "panel", "page_cells"),
+    },
     "testing": {"errors", "records", "ros"},
     "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis", "inspection"},
@@ -50,7 +52,7 @@ MAY_IMPORT = {
     "scenarios": {"ros"},
     "exercises": {
         *("ros", "records", "records_json", "comparisons", "errors", "viz", "workspace"),
-        *("diagnosis", "environment", "rosbeat", "bags", "clinic"),
+        *("diagnosis", "environment", "rosbeat", "bags", "clinic", "page_cells"),
     },
     "workspace": {"errors", "records", "environment", "diagnosis", "page_names"},
     "page_runs": {

@@ -15,6 +15,8 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
+from IPython import get_ipython
+
 from rosbeat.page_names import names_bound
 from rosbeat.workspace.location import page_file
 
@@ -26,6 +28,9 @@ _LONGEST = 60
 _HEADING = re.compile(r"^#{1,6} +(.+?) *#*$", re.MULTILINE)
 #: A file of Python that a cell saves, and runs on the page.
 _SAVED = re.compile(r"%%save .*\n")
+_UNKNOWN = re.compile(r"NameError: name '(\w+)' is not defined")
+#: The cells that the running one links to when it has ended.
+_LINKED: set[str] = set()
 
 
 @dataclass(frozen=True)
@@ -76,6 +81,41 @@ def cell_that_defines(shell: InteractiveShell, name: str) -> PageCell | None:
     if is_above:  # the cell that runs is not in the file, so nobody knows what is above it
         return None
     return next(iter([*above[-1:], *below]), None)
+
+
+def cell_to_run(error: str) -> PageCell | None:
+    """Return the cell above that has to run before the name exists that an error is about.
+
+    Args:
+        error: Kind and text of an exception, such as `NameError: name 'String' is not defined`.
+
+    Returns:
+        None if it is about something else, or if the page has no such cell.
+    """
+    found, shell = _UNKNOWN.match(error), get_ipython()
+    if found is None or shell is None or found[1] in shell.user_ns:
+        return None
+    cell = cell_that_defines(shell, found[1])
+    return cell if cell is not None and cell.is_above else None
+
+
+def link_below(cell: PageCell) -> None:
+    """Link to a cell below all that the running one shows; several links to a cell are one.
+
+    Args:
+        cell: The cell.
+    """
+    if not cell.id or cell.id in _LINKED:
+        return
+    shell = get_ipython()
+    _LINKED.add(cell.id)
+
+    def show(_: object) -> None:
+        shell.events.unregister("post_run_cell", show)
+        _LINKED.discard(cell.id)
+        shell.display_pub.publish({"text/html": link_to(cell), "text/plain": ""})
+
+    shell.events.register("post_run_cell", show)
 
 
 def link_to(cell: PageCell) -> str:

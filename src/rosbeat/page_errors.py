@@ -11,7 +11,7 @@ from types import FrameType, TracebackType
 from typing import TYPE_CHECKING
 
 from rosbeat.errors import RosbeatError, explain_interrupt
-from rosbeat.page_cells import PageCell, cell_that_defines, link_to
+from rosbeat.page_cells import PageCell, cell_that_defines, link_below
 from rosbeat.page_names import learners_names, names_of
 
 if TYPE_CHECKING:
@@ -65,8 +65,8 @@ def _show(
     below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"]
     # Not by `showtraceback`: an error that is raised again would keep these lines.
     shell._showtraceback(kind, error, [*shown, *below])
-    if cell is not None and cell.id:
-        shell.display_pub.publish({"text/html": link_to(cell), "text/plain": ""})
+    if cell is not None:
+        link_below(cell)
 
 
 def _show_unread(shell: InteractiveShell, *_: object, **__: object) -> None:

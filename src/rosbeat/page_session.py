@@ -9,6 +9,7 @@ from rosbeat.diagnosis.silence import Explanation
 from rosbeat.diagnosis.silence import explain as explain_scene
 from rosbeat.errors import called_as
 from rosbeat.inspection import inspect_topic
+from rosbeat.page_cells import cell_to_run, link_below
 from rosbeat.records import Fault
 from rosbeat.ros import session
 from rosbeat.ros.clock import START
@@ -27,7 +28,16 @@ class PageConsole(Console):
     create_again = "run the cell again."
 
     def explain(self, fault: Fault) -> Advice | None:
-        """Return which known mistake an exception comes from; None if it is none of them."""
+        """Return which known mistake an exception comes from; None if it is none of them.
+
+        After a restart of the kernel, a name is missing because its cell has not run.
+        """
+        cell = cell_to_run(f"{fault.kind}: {fault.text}")
+        if cell is not None:
+            link_below(cell)
+            text = first_sentence(fault.text)
+            means = "No cell that has run since the kernel started defines that name."
+            return Advice(text, means, f"Run the cell above {cell}.")
         known = meaning_of(fault)
         if known is None:
             return None

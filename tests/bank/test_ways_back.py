@@ -15,22 +15,14 @@ from bank.conftest import FOLDER
 from bank.pages import solution, subject
 from bank.reading import answers
 from bank.running import hurried, namespace_of
-from bank.workspaces import FILES, SETUP_CFG, Desk, Terminal, typed
+from bank.workspaces import FILES, SAVED_ON, SETUP_CFG, Desk, Terminal, typed
 from rosbeat.exercises import scenarios
 from rosbeat.exercises.check import check
-from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished
+from rosbeat.workspace.prerequisites import PACKAGE, finished
 
 WRONG = [one for one in answers() if one.status == "failed"]
 #: A command that a message gives, to be typed as it stands.
 COMMAND = re.compile(r"`((?:cd|rm|mv|touch|sed) [^`]*\"\$ROS2_WORKSPACE\"[^`]*)`")
-#: Pages that a message leads back to, by what it says, and the files that their cells write.
-PAGES = {
-    "page 03 or 04 that saves": [f"{PACKAGE}/{node}.py" for node in NODES],
-    "page 04 that saves": [f"{PACKAGE}/{NODES[1]}.py"],
-    "page 05 that saves": ["setup.py"],
-}
-
-
 #: Of two mistakes at once, a message names one.
 MOST_MISTAKES = 3
 
@@ -61,7 +53,9 @@ def go_back(outcome, terminal, root):
     """Do what a message says; return the terminal as it is then."""
     for command in COMMAND.findall(f"{outcome.evidence} {outcome.hint}"):
         terminal = type_on(terminal, command, root)
-    for path in (path for words, paths in PAGES.items() if words in outcome.hint for path in paths):
+    for path in (
+        path for words, paths in SAVED_ON.items() if words in outcome.hint for path in paths
+    ):
         Desk(root).write(f"src/{PACKAGE}/{path}", finished(path))
     if "setup.cfg that page 02 shows" in outcome.hint:
         Desk(root).write(f"src/{PACKAGE}/setup.cfg", SETUP_CFG)

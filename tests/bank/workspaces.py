@@ -24,6 +24,12 @@ BUILT = (
     f"cp -r {_SOURCE}/{PACKAGE} {_LIBRARY}/\n"
     + "".join(f"cp /bin/true {_INSTALLED}/lib/{PACKAGE}/{node}\n" for node in NODES)
 )
+#: Pages that a message leads back to, by what it says, and the files that their cells write.
+SAVED_ON = {
+    "page 03 or 04 that saves": [f"{PACKAGE}/{node}.py" for node in NODES],
+    "page 04 that saves": [f"{PACKAGE}/{NODES[1]}.py"],
+    "page 05 that saves": ["setup.py"],
+}
 #: Exercises that are answered with a file, and where it is.
 FILES = {
     "02a": f"{_SOURCE}/package.xml",

@@ -41,8 +41,9 @@ def lab(browser, tmp_path_factory):
 @pytest.fixture(scope="session")
 def chromium(browser):
     """Start the browser of all tests: playwright runs once in a process."""
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import expect, sync_playwright
 
+    expect.set_options(timeout=PATIENCE)
     with sync_playwright() as tools:
         options = ["--no-sandbox", "--disable-dev-shm-usage"]
         made = tools.chromium.launch(executable_path=browser, args=options)

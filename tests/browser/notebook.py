@@ -28,8 +28,9 @@ RAISED = """() => window.jupyterapp.shell.currentWidget.context.model.toJSON().c
     .filter(cell => cell.cell_type === 'code')
     .flatMap((cell, number) => cell.outputs.filter(one => one.output_type === 'error')
         .map(one => [number, `${one.ename}: ${one.evalue}`]))"""
-#: The outputs of a cell, as they would be saved.
-OUTPUTS = "n => window.jupyterapp.shell.currentWidget.context.model.toJSON().cells[n].outputs"
+#: The outputs of a code cell, as they would be saved.
+OUTPUTS = """n => window.jupyterapp.shell.currentWidget.context.model.toJSON().cells
+    .filter(cell => cell.cell_type === 'code')[n].outputs"""
 #: The notebook in front.
 SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 #: Whether every cell is on the page; JupyterLab adds those of a long notebook bit by bit.

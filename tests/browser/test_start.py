@@ -1,35 +1,17 @@
 """A learner's first steps: `course lab`, their own pages, the solutions, and Ctrl+C."""
 
 import json
-import os
 import re
-import shutil
-import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 import pytest
 
-from browser.lab import Lab
+from browser.course import ROOT, open_course
 from browser.notebook import PATIENCE, SHOWN, Notebook
-from rosbeat.domains import lease_domain
 
-ROOT = Path(__file__).parents[2]
 NAME = "03_write_a_publisher.ipynb"
-#: `course lab` without the installing: this checkout's `.venv` serves a copy of the course.
-TOOL = """\
-import os, sys
-sys.path.insert(0, {environment!r})
-from course_tool import cli, prepare, running
-prepare.ready = lambda layout, level: running.inside(dict(os.environ), layout)
-sys.exit(cli.main(["lab", *sys.argv[1:]]))
-"""
-OPTIONS = (
-    *("--no-browser", "--ServerApp.port=0", "--IdentityProvider.token="),
-    *("--ServerApp.disable_check_xsrf=True", "--LabApp.expose_app_in_browser=True"),
-)
 
 pytestmark = [
     pytest.mark.ros,
@@ -38,82 +20,16 @@ pytestmark = [
 ]
 
 
-class Course:
-    """A copy of the course, and `course lab` in it.
-
-    Attributes:
-        root: The copy.
-        process: The command.
-        said: What it has printed until the pages could be opened.
-    """
-
-    def __init__(self, root, environ):
-        self.root = root
-        tool = TOOL.format(environment=str(root / "environment"))
-        self.process = subprocess.Popen(
-            [sys.executable, "-I", "-c", tool, *OPTIONS],
-            env=environ, cwd=root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        )  # fmt: skip
-        self.said = []
-        while not self.said or "Ctrl+C" not in self.said[-1]:
-            line = self.process.stdout.readline()
-            assert line, self.process.communicate()
-            self.said.append(line)
-
-    @property
-    def own(self):
-        return self.root / "my_course"
-
-    def progress(self):
-        """The ids of the exercises that were tried."""
-        path = self.own / ".rosbeat" / "progress.json"
-        return set(json.loads(path.read_text())["exercises"]) if path.exists() else set()
-
-    def programs(self):
-        """Command lines of all processes that belong to this course."""
-        found = []
-        for folder in Path("/proc").glob("[0-9]*"):
-            try:
-                line = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode()
-            except OSError:
-                continue  # it has ended meanwhile
-            found += [line] if str(self.root) in line else []
-        return found
-
-    def stop(self):
-        """Press Ctrl+C; return what the command printed after that."""
-        self.process.send_signal(signal.SIGINT)
-        return self.process.communicate(timeout=120)
-
-
 @pytest.fixture(scope="session")
 def course(browser, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("start")
-    root = folder / "course"
-    for name in ("environment", "src", "notebooks", "solutions"):
-        shutil.copytree(ROOT / name, root / name)
-    (root / ".venv").symlink_to(ROOT / ".venv")
-    lease = lease_domain()
-    dropped = re.compile(r"PYTEST|ROSBEAT_|ROS2_WORKSPACE|JUPYTER_")
-    kept = {name: value for name, value in os.environ.items() if not dropped.match(name)}
-    made = Course(root, {
-        **kept,
-        "PYTHONPATH": os.pathsep.join(str(root / one) for one in ("src", "src/ros2_command")),
-        "JUPYTER_CONFIG_DIR": str(folder / "config"),
-        "IPYTHONDIR": str(folder / "ipython"),
-        "ROS_DOMAIN_ID": str(lease.domain_id),
-    })  # fmt: skip
-    yield made
-    if made.process.poll() is None:
-        made.stop()
-    lease.release()
+    with open_course(tmp_path_factory.mktemp("start")) as made:
+        yield made
 
 
 @pytest.fixture(scope="session")
 def lab(course):
     """The server that `course lab` started, in the place of the one of the other tests."""
-    address = re.search(r"(http\S+/)lab", "".join(course.said))[1]
-    return Lab(address, course.own)
+    return course.lab
 
 
 @pytest.fixture

@@ -42,7 +42,11 @@ def test_a_program_that_waits_for_input_is_named_and_how_to_end_it(notebook, pag
     notebook.says(1, "%terminal one --ctrl-d")
     notebook.interrupt()
     notebook.says(1, "goes on running in the terminal")
-    assert "waits for input" not in json.dumps(notebook.stored(1))
+    # The note goes; what stays in the page is the error, which says how to end the program.
+    (error,) = (one for one in notebook.stored(1) if one["output_type"] == "error")
+    assert "%terminal one --ctrl-d" in "".join(error["traceback"])
+    others = [one for one in notebook.stored(1) if one is not error]
+    assert "waits for input" not in json.dumps(others)
 
 
 @pytest.mark.parametrize("notebook", [COUNTS], indirect=True)

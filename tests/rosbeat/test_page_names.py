@@ -170,6 +170,38 @@ def test_a_check_of_an_exercise_that_did_not_run_leads_to_its_cell(ask):
     assert f"{ABOVE} `class Reader:`" in ask('check("04a", Reader)')
 
 
+SPEAKER = """
+from rclpy.node import Node
+class Speaker(Node):
+    def __init__(self):
+        super().__init__("speaker")
+        self.timer = self.create_timer(1.0, self.speak)
+    def speak(self):
+        NAME
+ros = Session()
+ros.add(Speaker)
+"""
+IMPORT = f'{ABOVE} `import random`, under the heading "Title"'
+
+
+@pytest.mark.parametrize("last", ["ros.run(seconds=2)", 'check("00b", Speaker)'])
+def test_a_name_in_a_callback_leads_to_its_cell_and_counts_as_no_mistake(ask, last):
+    told = ask(SPEAKER.replace("NAME", "String()") + last)
+    assert told.count(IMPORT) == 1
+    assert "No cell that has run since the kernel started defines that name" in told
+    assert not any(words in told for words in ("not there yet", "imports at the top"))
+
+
+def test_a_name_in_a_function_that_is_checked_leads_to_its_cell(ask):
+    told = ask('check("07a", lambda: String)')
+    assert f"{IMPORT}, then this check again." in told
+
+
+def test_a_name_that_nothing_on_the_page_defines_is_a_mistake_as_before(ask):
+    told = ask(SPEAKER.replace("NAME", "Int32()") + 'check("00b", Speaker)')
+    assert "Exercise 00b: not there yet" in told
+
+
 def test_where_the_page_is_not_known_the_advice_is_the_general_one(ask, tmp_path):
     general = "Choose Run, Run All Above Selected Cell in the menu."
     assert general in ask("Reader", cell="new")

@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from glob import escape
 from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
@@ -512,6 +511,8 @@ _NOT_HERE = (
 #: Short words are easily alike: `screen` is not `tree`.
 _ALIKE = 0.75
 _SOURCE = r"source|\."
+#: Commands that name a file or folder which they do not find, all in the same way.
+_READS = "ls|cat|head|tail|less|wc|stat|find|grep|diff|sed|cp|mv|rm"
 _SETUP = r"(?:\S*/)?install/(?:local_)?setup\.\w+"
 
 
@@ -534,18 +535,35 @@ def _no_such_file(seen: Situation, call: Call, found: Found) -> Diagnosis:
     """Say where in the workspace a file lies that is not here, or which one was meant."""
     path = found[1]
     where = "" if path.startswith("/") else " in the current folder"
-    same = sorted(seen.workspace.glob(f"src/**/{escape(Path(path).name)}"))
-    file = next((one for one in same if one.is_file()), None)
-    if file:
-        folder = file.parent.relative_to(seen.workspace).as_posix()
+    known = _misplaced(seen, call, found)
+    return known or Diagnosis(
+        "file-not-found", f"There is no {path}{where}.", "`ls` shows what is there."
+    )
+
+
+def _misplaced(seen: Situation, call: Call, found: Found) -> Diagnosis | None:
+    """Say the same only if there is such a file or folder, or one of a similar name."""
+    path = found[1]
+    if path.startswith("/"):
+        return None
+    bases = (seen.workspace, *seen.workspace.glob("src/**/"))  # a new terminal is outside
+    base = next((one for one in bases if (one / path).exists()), None)
+    if base is not None and path.strip("./"):
+        folder = base.relative_to(seen.workspace).as_posix()
+        there = "" if folder == "." else f"{folder} of "
         return Diagnosis(
             "wrong-folder",
-            f"There is no {path}{where}; it is in {folder} of your workspace.",
+            f"There is no {path} in the current folder; it is in {there}your workspace.",
             f"Go to that folder first, with  {_way_to(folder)}",
         )
     meant = _near(call.place, path)
-    hint = f"Did you mean {shlex.quote(meant)}?" if meant else "`ls` shows what is there."
-    return Diagnosis("file-not-found", f"There is no {path}{where}.", hint)
+    if meant is None:
+        return None
+    return Diagnosis(
+        "file-not-found",
+        f"There is no {path} in the current folder.",
+        f"Did you mean {shlex.quote(meant)}?",
+    )
 
 
 def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
@@ -620,6 +638,11 @@ _COMMAND_RULES = (
 _FILE_RULES: Rules = (
     Rule("sed", r"\A\s*\Z", _nothing_replaced),
     Rule("chmod", r"^chmod: cannot access '([^']+)': No such file", _no_such_file),
+    Rule(
+        _READS,
+        rf"^(?:{_READS}): (?:can(?:not|'t) \w+ )?'?([^'\n]+?)'?: {_NO_FILE}",
+        _misplaced,
+    ),
     Row("word-misspelled", "chmod", r"^chmod: invalid mode: ",
         "`chmod` does not understand its first argument.",
         "A plus sign adds a permission: `+x` adds the permission to execute."),

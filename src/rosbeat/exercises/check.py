@@ -14,6 +14,7 @@ from uuid import uuid4
 from IPython import get_ipython
 from IPython.display import display, update_display
 
+from rosbeat.diagnosis.exceptions import first_sentence
 from rosbeat.errors import ExerciseError, called_as, explain_interrupt
 from rosbeat.exercises.cells import NOTHING, Cells, Shell, cells_of, worked_on
 from rosbeat.exercises.certificate import keep_run
@@ -26,7 +27,8 @@ from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.exercises.scenarios import Answer, overheard
 from rosbeat.exercises.share import share
 from rosbeat.exercises.system import SystemRun
-from rosbeat.records import Outcome
+from rosbeat.page_cells import cell_to_run, link_below
+from rosbeat.records import Observation, Outcome
 from rosbeat.workspace.busy_notice import counting
 from rosbeat.workspace.location import GRADED
 
@@ -132,6 +134,7 @@ def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Judged:
         try:
             with counting(f"checking exercise {found.id}"), overheard() as printed:
                 seen = found.observed(answer)
+                _refuse_unready(seen)
                 verdict, picture = found.judged(seen), found.picture(seen)
         except KeyboardInterrupt as interrupt:
             explain_interrupt(
@@ -150,6 +153,26 @@ def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Judged:
         keep_run(seen)
     verdict = _with_hints(verdict, standing.hints) if found.tells_hints else verdict
     return Judged(verdict, picture, output)
+
+
+def _refuse_unready(seen: object) -> None:
+    """Refuse to judge an answer that needs a cell which has not run since the kernel started.
+
+    Raises:
+        ExerciseError: If it raised for want of a name that a cell above defines.
+    """
+    said = getattr(seen, "problem", "")  # of a function
+    if isinstance(seen, Observation) and seen.faults:
+        said = f"{seen.faults[0].kind}: {seen.faults[0].text}"
+    cell = cell_to_run(said)
+    if cell is not None:
+        link_below(cell)
+        raise ExerciseError(
+            f"Your answer could not be checked: {first_sentence(said)}.",
+            "No cell that has run since the kernel started defines that name, so there is no "
+            "verdict.",
+            f"Run the cell above {cell}, then this check again.",
+        )
 
 
 def _with_hints(outcome: Outcome, hints: int) -> Outcome:

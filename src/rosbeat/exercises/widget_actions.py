@@ -36,7 +36,7 @@ _GONE = {
 #: has started anew as if nothing had happened. So these words are an output of their own: hidden
 #: while the widget below lives, also for the moment in which it loads, and hiding that error.
 _ONE_OF_THEM = """<style>
-.rosbeat-gone { animation: rosbeat-gone 3s; margin: 0; }
+.rosbeat-gone { animation: rosbeat-gone 3s; margin: 0; overflow: hidden; }
 @keyframes rosbeat-gone { from, 99% { visibility: hidden; height: 0; } }
 .jp-OutputArea-child:has(.rosbeat-gone):has(+ * .rosbeat-exercise:not(.rb-orphan)),
 .jp-OutputArea-child:has(.rosbeat-gone) + *:not(:has(.rosbeat-exercise)) { display: none; }

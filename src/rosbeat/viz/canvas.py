@@ -83,38 +83,44 @@ def wrap(name: str, limit: float) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class TimeScale:
-    """Convert seconds, from 0 up, to CSS pixels.
+    """Convert seconds to CSS pixels.
 
     Attributes:
-        last: Time at the right end, in seconds; 0 if all is one instant.
+        last: Time at the right end, in seconds; the first one if all is one instant.
         left: The left end in CSS pixels.
         right: The right end in CSS pixels.
+        first: Time at the left end, in seconds.
     """
 
     last: float
     left: float
     right: float
+    first: float = 0.0
 
     def __call__(self, time: float) -> float:
         """Return where a time is, in CSS pixels; one single instant stands in the middle."""
-        part = time / self.last if self.last > 0 else 0.5
+        span = self.last - self.first
+        part = (time - self.first) / span if span > 0 else 0.5
         return self.left + part * (self.right - self.left)
 
     def ticks(self) -> list[float]:
         """Return round times in the range, few enough that their labels stand apart."""
-        if self.last <= 0:
-            return [0.0]
-        room = max(text_width(number(end)) for end in (0.0, self.last)) + 34
+        if self.last <= self.first:
+            return [self.first]
+        room = max(text_width(number(end)) for end in (self.first, self.last)) + 34
         most = max(2, min(10, int((self.right - self.left) / room)))
-        values = MaxNLocator(nbins=most, steps=(1, 2, 5, 10)).tick_values(0.0, self.last)
-        return [float(at) for at in values if 0 <= at <= self.last * (1 + 1e-9)]
+        values = MaxNLocator(nbins=most, steps=(1, 2, 5, 10)).tick_values(self.first, self.last)
+        rounding = self.last * 1e-9
+        return [float(at) for at in values if self.first - rounding <= at <= self.last + rounding]
 
 
-def lane_scale(names: Sequence[str], seconds: float, least: float = 0.0) -> TimeScale:
-    """Return the scale of `seconds` for lanes, with room for their names at the left."""
+def lane_scale(
+    names: Sequence[str], last: float, least: float = 0.0, first: float = 0.0
+) -> TimeScale:
+    """Return the scale from `first` to `last` for lanes, with room for their names at the left."""
     wide = max(text_width(row) for name in names for row in wrap(name, _LANE_NAMES))
     left = theme.MARGIN + max(wide, least) + 24
-    return TimeScale(seconds, left, theme.WIDTH - theme.MARGIN - 34)
+    return TimeScale(last, left, theme.WIDTH - theme.MARGIN - 34, first)
 
 
 # Arrows.

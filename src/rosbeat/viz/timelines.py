@@ -135,6 +135,7 @@ class Happenings:
         end: The last time shown, in seconds.
         skipped: How many messages and callbacks came later and are not shown.
         processes: The nodes in lanes that share a process.
+        start: The first time shown, in seconds.
     """
 
     lanes: tuple[str, ...]
@@ -146,6 +147,7 @@ class Happenings:
     end: float
     skipped: int
     processes: tuple[tuple[str, ...], ...]
+    start: float = 0.0
 
     @property
     def marked(self) -> list[Run]:
@@ -173,7 +175,11 @@ class Happenings:
 
 
 def happenings(
-    seen: Observation, topics: tuple[str, ...], until_ns: int | None, everyone: bool = False
+    seen: Observation,
+    topics: tuple[str, ...],
+    until_ns: int | None,
+    everyone: bool = False,
+    since_ns: int = 0,
 ) -> Happenings:
     """Select what is shown.
 
@@ -182,6 +188,7 @@ def happenings(
         topics: Full names of the topics to show.
         until_ns: Last time to show, in nanoseconds, or None for as long as is readable.
         everyone: Whether nodes that have nothing to do with these topics get a lane, too.
+        since_ns: First time to show, in nanoseconds.
 
     Raises:
         PictureError: If nothing happened on these topics in that time.
@@ -198,7 +205,8 @@ def happenings(
         if one.node in lanes
     )
     every = runs_of((one for one in seen.waits if one.node in lanes), callbacks)
-    runs = [run for run in every if run.kind or run.waits]
+    runs = [run for run in every if (run.kind or run.waits) and run.time_ns >= since_ns]
+    samples = [one for one in samples if one.time_ns >= since_ns]
     times = sorted(one.time_ns for one in (*samples, *runs))
     last = _last(times, until_ns)
     end = _end(seen, times, last, until_ns)
@@ -208,11 +216,14 @@ def happenings(
         tuple(dict.fromkeys(one.topic for one in shown)),
         _messages(shown, runs),
         tuple(stacked([run for run in runs if run.time_ns <= last])),
-        tuple(one for one in seen.logs if _node_of(one) in lanes and one.time_ns <= end),
-        tuple(one for one in seen.faults if one.node in lanes and one.time_ns <= end),
+        tuple(
+            one for one in seen.logs if _node_of(one) in lanes and since_ns <= one.time_ns <= end
+        ),
+        tuple(one for one in seen.faults if one.node in lanes and since_ns <= one.time_ns <= end),
         end / NANOSECONDS,
         sum(time > last for time in times),
         processes,
+        since_ns / NANOSECONDS,
     )
 
 
@@ -239,7 +250,7 @@ def _last(times: list[int], until_ns: int | None) -> int:
         raise PictureError(
             "There is nothing to put on a timeline.",
             "In this time no message was published and no callback ran.",
-            "Run the session longer, or choose a later `until`.",
+            "Run the session longer, or choose an earlier `since` or a later `until`.",
         )
     if len(inside) <= MOST_EVENTS:
         return inside[-1]
@@ -323,6 +334,7 @@ def timeline(
     source: arguments.Observed,
     topics: str | Iterable[str] | None = None,
     until: float | None = None,
+    since: float = 0.0,
 ) -> Picture:
     """Draw when callbacks ran and which message made which callback run.
 
@@ -338,15 +350,18 @@ def timeline(
         topics: Topics to show, one name or several, with the nodes that use them. By default all
             topics but the infrastructure, and all nodes.
         until: Last time to show, in seconds of virtual time.
+        since: First time to show, in seconds of virtual time. What began before is left out.
 
     Raises:
-        PictureError: If a topic is unknown, the time is not a number from 0 up, or nothing
+        PictureError: If a topic is unknown, a time is not a number from 0 up, or nothing
             happened.
     """
     seen = arguments.observed(source)
     names = [*seen.graph.topics(infrastructure=True), *(one.topic for one in seen.samples)]
     wanted = arguments.topic_names(topics, tuple(dict.fromkeys(names)))
-    shown = happenings(seen, wanted, _nanoseconds(until), everyone=topics is None)
+    begin_ns = _nanoseconds(since, "begin", "since")
+    end_ns = None if until is None else _nanoseconds(until, "end", "until")
+    shown = happenings(seen, wanted, end_ns, everyone=topics is None, since_ns=begin_ns)
     stack = _stack(shown)
     height = _HEAD + stack.height + _FOOT
     with blank(height, entries=_key(shown), note=_left_out(shown)) as canvas:
@@ -354,16 +369,14 @@ def timeline(
     return Picture(canvas.figure, describe(shown), "Callbacks and messages over time")
 
 
-def _nanoseconds(until: float | None) -> int | None:
-    if until is None:
-        return None
-    if not isinstance(until, (int, float)) or not isfinite(until) or until < 0:
+def _nanoseconds(time: float, does: str, argument: str) -> int:
+    if not isinstance(time, (int, float)) or not isfinite(time) or time < 0:
         raise PictureError(
-            f"A timeline cannot end at {until!r}.",
-            "`until` is a time in seconds of virtual time, from 0 up.",
-            "For example `until=10`.",
+            f"A timeline cannot {does} at {time!r}.",
+            f"`{argument}` is a time in seconds of virtual time, from 0 up.",
+            f"For example `{argument}=10`.",
         )
-    return round(until * NANOSECONDS)
+    return round(time * NANOSECONDS)
 
 
 @dataclass(frozen=True)
@@ -408,7 +421,7 @@ class _Drawing:
     def __init__(self, canvas: Canvas, shown: Happenings, stack: _Stack) -> None:
         self._canvas, self._shown, self._stack = canvas, shown, stack
         self._top = canvas.top - _HEAD
-        self._scale = lane_scale(shown.lanes, shown.end)
+        self._scale = lane_scale(shown.lanes, shown.end, first=shown.start)
         self._rank = {name: k for k, name in enumerate(shown.lanes)}
 
     def draw(self) -> None:
@@ -527,7 +540,8 @@ def _key(shown: Happenings) -> list[Entry]:
 
 def describe(shown: Happenings) -> str:
     """Tell who did what how often, which messages arrived, and what is not shown."""
-    said = [f"A timeline from 0 s to {number(shown.end)} s with {count(len(shown.lanes), 'node')}."]
+    span = f"from {number(shown.start)} s to {number(shown.end)} s"
+    said = [f"A timeline {span} with {count(len(shown.lanes), 'node')}."]
     said += [_say_lane(shown, name) for name in shown.lanes]
     said += say_shared(shown.processes)
     said += _say_runs(shown)

@@ -67,6 +67,8 @@ REFUSED = {
     "no value of two runs": (lambda: comparison(compared("warm")), "is not a number"),
     **{f"until {until}": (partial(timeline, ONE, until=until), "cannot end at")
        for until in (-1, math.nan, "soon")},
+    **{f"since {since}": (partial(timeline, ONE, since=since), "cannot begin at")
+       for since in (-1, math.inf, "soon")},
 }
 # fmt: on
 

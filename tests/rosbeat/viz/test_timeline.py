@@ -156,6 +156,10 @@ SAID = {
     "until ends the axis": (pair(10), {"until": 4}, [
         "A timeline from 0 s to 4 s with 2 nodes.",
         "18 later messages and callbacks are not shown."]),
+    "since begins it": (pair(600, faults=(replace(STOPPED, time_ns=at(17)),)),
+        {"since": 16, "until": 18}, [
+        "A timeline from 16 s to 18 s with 2 nodes. /sensor: 3 timer callbacks.",
+        "At 17 s, "]),
     "the end of the session": (made(ONE, until=9), {}, ["A timeline from 0 s to 9 s"]),
     "hidden nodes have no lane": (made(ONE, calls=[heard(1, "/_spy")]), {}, ["with 1 node."]),
     "a node in a namespace": (
@@ -193,6 +197,13 @@ def test_its_words(case):
     description = timeline(observation, **given_more).description
     for part in parts:
         assert part in description
+
+
+def test_an_axis_begins_where_it_is_asked_to():
+    picture = timeline(pair(600), since=16, until=18)
+    assert {"16 s", "17 s", "18 s"} <= set(words_in(picture))
+    assert "0 s" not in words_in(picture)
+    assert is_tidy(picture)
 
 
 def test_an_instant_is_never_cut_in_two():
