@@ -191,6 +191,31 @@ def test_a_program_that_ignores_ctrl_c_can_be_killed(terminal, says):
     assert not terminal.busy
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "while true; do echo tick; sleep 0.5; done",
+        "for i in {1..1000}; do echo tick; bash -c \"trap '' INT; sleep 0.5\"; done",
+        "until false; do echo tick; /bin/true; done",
+        "echo tick; while :; do :; done",
+        "count() { while true; do echo tick; sleep 0.3; done; }; count",
+    ],
+)
+def test_a_loop_is_killed_and_not_only_the_program_that_it_is_at(terminal, command):
+    terminal.type(command, until="tick", show=str)
+    terminal.kill(show=str)
+    assert not terminal.busy
+    shown = []
+    terminal.type("echo still here", show=shown.append)
+    assert (shown[-1], terminal.exit_code) == ("still here", 0)
+
+
+def test_a_loop_that_ignores_every_request_ends_with_its_terminal(terminal):
+    terminal.type("trap '' INT; while true; do echo tick; sleep 0.1; done", until="tick", show=str)
+    terminal.kill(show=str)
+    assert terminal.ended
+
+
 def test_ctrl_d_is_never_turned_into_ctrl_c(terminal, says):
     terminal.type("sleep 100", seconds=0.1, show=str)
     with pytest.raises(TerminalError) as caught:
