@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from course_tool import installing, running
-from course_tool.layout import Layout
+from course_tool.layout import WORKSPACE_IN, Layout
 from course_tool.problems import Problem, last_lines, say
 
 GIGABYTE = 10**9
@@ -41,6 +41,9 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
     Raises:
         Problem: If it cannot be made, filled, or no message arrives in it.
     """
+    check_place(layout.root)
+    check_place(layout.learner)
+    check_place(Path(os.environ.get(WORKSPACE_IN, "")))
     clean = running.cleaned(os.environ, layout)
     if not is_satisfied(layout, level):
         check_writable(layout.root)
@@ -73,6 +76,24 @@ def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
 
 
 # What must hold before anything is installed.
+
+
+def check_place(folder: Path) -> None:
+    """Refuse a folder that no list of folders, such as PATH, can name.
+
+    colcon would cut its path in two, and install what it builds somewhere else: into `.venv`.
+
+    Raises:
+        Problem: If there is a colon in its path.
+    """
+    if os.pathsep in str(folder):
+        raise Problem(
+            f"There is a `{os.pathsep}` in the path {folder}.",
+            "Linux separates the folders of a list, such as PATH, by that character, so neither\n"
+            "Python nor colcon can work in this folder. Nothing was installed or changed.",
+            f"Rename the folder, or choose another one, without a `{os.pathsep}` in its path, and "
+            "run\nthe same command again.",
+        )
 
 
 def check_writable(folder: Path) -> None:

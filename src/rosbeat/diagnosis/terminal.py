@@ -18,6 +18,8 @@ from glob import escape
 from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
+from rosbeat.diagnosis.absent_programs import PATTERN as ABSENT
+from rosbeat.diagnosis.absent_programs import about_program
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.modules import about_hidden, about_name, about_neighbor
 from rosbeat.diagnosis.packages import BROKEN, NO_CALL, Package, diagnose_flaw, nearest
@@ -91,7 +93,7 @@ class Situation:
         found = []
         for words in split_commands(self.command):
             found.append(Call(words, place))
-            if words[0] == "cd":
+            if words[0] in ("cd", "pushd"):
                 place = self._after_cd(place, words)
         return tuple(found)
 
@@ -137,7 +139,7 @@ class Situation:
 
     def _after_cd(self, place: Path, words: tuple[str, ...]) -> Path:
         """Return where `cd` leads; without such a folder it fails, and stays in the same place."""
-        typed = words[1] if len(words) > 1 else "~"
+        typed = next((word for word in words[1:] if word != "--"), "~")
         first, _, rest = typed.partition("/")
         workspace = dict.fromkeys((f"${VARIABLE}", f"${{{VARIABLE}}}"), self.workspace)
         known = {"~": self.home, **workspace}
@@ -466,6 +468,8 @@ def _cd_failed(seen: Situation, call: Call, found: Found) -> Diagnosis:
     hint = "`pwd` shows the current folder, and `ls` lists its content."
     if seen.workspace.name in PurePosixPath(path).parts:
         hint = f"Your workspace is here:  {_way_to()}"
+        if not seen.workspace.is_dir():
+            hint = f'You have no workspace yet. Page 01 creates it:  mkdir -p "${VARIABLE}/src"'
     elif meant:
         hint = f"Did you mean {shlex.quote(meant)}?"
     return Diagnosis("folder-not-found", f"There is no folder {path}{where}.", hint)
@@ -504,10 +508,6 @@ _MKDIR_RULES = (
 _KNOWN = (
     *("ros2", "colcon", "source", "mkdir", "cd", "chmod", "ls", "pwd", "cat", "cp", "mv"),
     *("echo", "python3", "python", "pip", "touch", "clear", "exit"),
-)
-_NOT_HERE = (
-    "tree|screen|tmux|git|sudo|apt|apt-get|gnome-terminal|terminator|rviz2|rqt|rqt_graph|rosdep|"
-    "htop|wget|curl|pip|python|conda|nano|gedit|vim|vi|code|emacs"
 )
 #: Short words are easily alike: `screen` is not `tree`.
 _ALIKE = 0.75
@@ -608,13 +608,7 @@ _COMMAND_RULES = (
         "This terminal cannot find {1}: the course's environment is not active in it.",
         "Open a terminal in JupyterLab, or run `./environment/course shell` in the folder of the "
         "course."),
-    Row("ros-1-command", "{1}",
-        _not_found("roscore|rosrun|rosnode|rostopic|roslaunch|catkin_make"),
-        "`{1}` is not installed here:",
-        "it belongs to ROS 1, and ROS 2 does not have it."),
-    Row("not-installed", "{1}", _not_found(_NOT_HERE),
-        "The program `{1}` is not installed here.",
-        "The course does not need it. JupyterLab's file browser opens files in an editor."),
+    Rule("{1}", _not_found(ABSENT), lambda _, __, found: about_program(found[1])),
     Rule("{1}", _not_found(), _misspelt),
 )  # fmt: skip
 _FILE_RULES: Rules = (
@@ -796,11 +790,29 @@ def _is_for_cpp(package: Package, _: str = "") -> bool:
 _STILL = (
     "Nothing new was installed, so `ros2 run` still starts the previous build, if there is one."
 )
+#: The folders of a package in which messages, services and actions are defined.
+_DEFINITIONS = ("msg/*.msg", "srv/*.srv", "action/*.action", "msg/*.idl", "srv/*.idl")
+
+
+def _defines_messages(package: Package, _: str = "") -> bool:
+    folder = package.folder
+    return _is_for_cpp(package) and any(any(folder.glob(kind)) for kind in _DEFINITIONS)
+
+
+_MESSAGES = PackageRow("build-type",
+    _defines_messages,
+    "{name} defines messages of its own, so it is not a Python package: CMake and a compiler make "
+    "code from its definitions, and the course has neither until you add them.",
+    "Once, in the folder of the course:  ./environment/course add messages\nThen build again.")
 _FOR_CPP = PackageRow("build-type",
-    _is_for_cpp,
+    lambda package, _: _is_for_cpp(package) and not _defines_messages(package),
     "{name} is a C++ package: the build type in its package.xml is {manifest.build_type}.",
     "`--build-type ament_python` creates a Python package. Rename the folder {name} or move it "
     "away, then create the package again with that option.")  # fmt: skip
+_NO_BUILD_TOOLS = (
+    r"Find(?:ament_cmake|rosidl_default_generators)\w*\.cmake|Could not find 'cmake'|"
+    r"CMAKE_C(?:XX)?_COMPILER\b|No CMAKE_|rclcppConfig\.cmake|Findrclcpp\.cmake"
+)
 _NOT_INSTALLED = PackageRow("packages-missing",
     lambda package, _: not package.setup.installs(package.name),
     "The setup.py of {name} does not install the folder {name} with its modules: its `packages` "
@@ -934,8 +946,9 @@ _BUILD_RULES = (
         lambda seen, *_: not seen.packages),
     PackageRule(
         _BUILD,
-        (_FOR_CPP,),
-        when=lambda seen, package: seen.code and f"Failed   <<< {package.name}" in seen.text,
+        (_MESSAGES, _FOR_CPP),
+        _NO_BUILD_TOOLS,
+        lambda seen, package: seen.code and f"Failed   <<< {package.name}" in seen.text,
     ),
     PackageRule(_BUILD, (_SETUP_UNREADABLE,)),
     PackageRule(_BUILD, (_SETUP_NOT_CALLED,), when=_failed),
@@ -953,7 +966,9 @@ _BUILD_RULES = (
         ),
     ),
     # A setup.py may name another file than the usual one, and then the build succeeds.
-    PackageRule(_BUILD, (_NO_MARKER,), when=_failed),
+    PackageRule(
+        _BUILD, (_NO_MARKER,), when=lambda seen, package: seen.code and not _is_for_cpp(package)
+    ),
     PackageRule(_BUILD, (_broken_module,)),
 )  # fmt: skip
 
@@ -1064,6 +1079,32 @@ def _edited(package: Package, name: str) -> Diagnosis | None:
     )
 
 
+def _lost_entry_point(package: Package, name: str) -> Diagnosis:
+    """Recognize a program of an earlier build, whose entry point setup.py no longer has."""
+    known = _executables(package)
+    if name in known:
+        said = f"The build in install does not have the entry point {name}, as setup.py has it."
+        return Diagnosis("not-rebuilt", said, f"{_AGAIN} Then source install/setup.bash.")
+    now = f"It has: {', '.join(known)}." if known else "It has none."
+    return Diagnosis(
+        "entry-point-missing",
+        f"setup.py no longer has an entry point {name}. `ros2 run` started the program of that "
+        "name from an earlier build: colcon leaves it in install, where it finds no function to "
+        "call.",
+        f"{now} Run one of these names, or write the old one into setup.py and build again. To "
+        f"remove the old program, delete its package from install, and build again:  "
+        f'rm -r "${VARIABLE}"/install/{package.name}'
+        if known
+        else f"{now} Write one into setup.py, 'executable = package.module:function', and build "
+        "again.",
+    )
+
+
+_GROUP_MISSPELLED = PackageRow("group-misspelled",
+    lambda package, _: package.setup.misspelled_group,
+    "setup.py lists its entry points under {setup.misspelled_group}, where `ros2 run` does not "
+    "find them.",
+    f"Compare that word with page 05, letter by letter. {_AGAIN}")  # fmt: skip
 _RUN_RULES = (
     Row("not-built", "ros2", _NO_PACKAGE,
         "The package {1} is in src, but it has not been built yet.",
@@ -1078,6 +1119,10 @@ _RUN_RULES = (
     PackageRule(
         _RUN,
         (
+            PackageRow("build-type",
+                _defines_messages,
+                "{name} defines messages, and has no programs to run.",
+                "`ros2 interface package {name}` lists them once it is built and sourced."),
             _FOR_CPP,
             *_PARTS,
             _refused_flaw,
@@ -1092,11 +1137,7 @@ _RUN_RULES = (
     PackageRule(
         _RUN,
         (
-            PackageRow("group-misspelled",
-                lambda package, _: package.setup.misspelled_group,
-                "setup.py lists its entry points under {setup.misspelled_group}, where `ros2 "
-                "run` does not find them.",
-                f"Compare that word with page 05, letter by letter. {_AGAIN}"),
+            _GROUP_MISSPELLED,
             PackageRow("entry-point-missing",
                 _is_module_only,
                 "{stem}.py is in the package, but setup.py has no entry point for it, so `ros2 "
@@ -1109,6 +1150,12 @@ _RUN_RULES = (
             _no_such_executable,
         ),
         "No executable found",
+        lambda _, package: not package.setup.incomplete,
+    ),
+    PackageRule(
+        _RUN,
+        (_GROUP_MISSPELLED, _lost_entry_point),
+        r"load_entry_point[\s\S]*\nStopIteration",
         lambda _, package: not package.setup.incomplete,
     ),
 )  # fmt: skip

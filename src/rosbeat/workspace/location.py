@@ -61,6 +61,13 @@ def workspace_parent() -> Path:
     return Path(learners_folder() or Path.cwd())
 
 
+def search_path() -> str:
+    """Return the PATH with the programs of this Python's environment in front, such as `ros2`."""
+    own = str(Path(sys.prefix) / "bin")
+    rest = (os.environ.get("PATH") or os.defpath).split(os.pathsep)
+    return os.pathsep.join([own, *(folder for folder in rest if folder != own)])
+
+
 def is_a_solution(page: Path) -> bool:
     """Return whether a page is one of the course's solutions, or the learner's copy of one.
 

@@ -479,7 +479,7 @@ def folders(home):
     for package in ("src/command", "mine/src/robots/arm"):
         (home / package).mkdir(parents=True)
         (home / package / "package.xml").touch()
-    for folder in ("ROS2_and_RL_Tutorials/src/deep", "notebooks", "other/src/empty"):
+    for folder in ("ROS2_and_RL_Tutorials/src/deep", "notebooks", "other/src/empty", "a:b/src"):
         (home / folder).mkdir(parents=True)
     (home / "link").symlink_to(home / "ROS2_and_RL_Tutorials")
 
@@ -495,6 +495,17 @@ def folders(home):
         (".", "  colcon  test --event-handlers x", True),
         ("other", "colcon build;ls", True),
         ("/", "colcon --log-base l build && x --base-paths y", True),
+        # The folder may be changed in the same line.
+        (".", "cd ROS2_and_RL_Tutorials && colcon build --packages-select none", False),
+        ("ROS2_and_RL_Tutorials", "cd .. && colcon build", True),
+        ("ROS2_and_RL_Tutorials", "(cd ../notebooks; time colcon test)", True),
+        ("ROS2_and_RL_Tutorials", "pushd /tmp && colcon build", True),
+        ("ROS2_and_RL_Tutorials", "if true; then cd ..; colcon build; fi", True),
+        ("ROS2_and_RL_Tutorials", "cd .. && cd other/.. && colcon build --help", False),
+        ("ROS2_and_RL_Tutorials", "cd nowhere; colcon build --packages-select none", False),
+        (".", 'cd "$ROS2_WORKSPACE" && colcon build --packages-select none', False),
+        ("ROS2_and_RL_Tutorials", "echo 'cd ..' && echo colcon build", False),
+        ("a:b", "colcon build", True),
         ("notebooks", "colcon build --help", False),
         ("notebooks", "echo colcon build", False),
     ],

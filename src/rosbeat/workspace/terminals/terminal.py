@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
@@ -597,6 +597,9 @@ class Terminals:
             self._watch_over()
             self._count += 1
             token = f"{self._mark}{self._count}."
+            if self._parent is None:
+                with suppress(OSError):  # nobody has opened the course here yet
+                    workspace_parent().mkdir(exist_ok=True)
             terminal = Terminal(name, token, self._parent or workspace_parent())
             self._open[name] = terminal
         return terminal
