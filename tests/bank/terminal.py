@@ -135,6 +135,10 @@ ROWS = (
          BUILT + f"echo '# more' >> {_N}/temperature_publisher.py"),
     Case("24 a new entry", "not-rebuilt", _RUN, _NO_EXECUTABLE, 1,
          BUILT + "rm install/sensor_simulator/lib/sensor_simulator/*"),
+    Case("20 renamed since a build", "entry-point-missing", _RUN, _traceback(
+             "           ^^^^\n  File \"/home/you/x\", line 25, in importlib_load_entry_point\n"
+             "    return next(matches).load()\nStopIteration"), 1,
+         BUILT + _edit("temperature_publisher = ", "talk = ")),
     Case("25 left out", "build-type", "ros2 pkg create other", place="src"),
     Case("25 for C++", "build-type", "ros2 pkg create --build-type ament_cmake other", place="src"),
     Case("25 a letter wrong", "build-type", "ros2 pkg create --build-type ament_pyhton other",

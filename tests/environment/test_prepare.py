@@ -140,7 +140,7 @@ def test_a_path_that_no_list_can_hold_is_refused_before_anything_is_made(
     layout = Layout(tmp_path / "a:b") if place == "checkout" else made
     if place != "checkout":
         monkeypatch.setenv(place, str(tmp_path / "a:b"))
-    with pytest.raises(Problem, match="There is a `:` in the path .*/a:b") as caught:
+    with pytest.raises(Problem, match=r"There is a `:` in the path .*/a:b") as caught:
         prepare.ready(layout, "course")
     assert caught.value.means.endswith("Nothing was installed or changed.")
     assert "Rename the folder" in caught.value.cure

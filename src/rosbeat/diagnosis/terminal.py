@@ -799,11 +799,13 @@ def _defines_messages(package: Package, _: str = "") -> bool:
     return _is_for_cpp(package) and any(any(folder.glob(kind)) for kind in _DEFINITIONS)
 
 
-_MESSAGES = PackageRow("build-type",
+_MESSAGES = PackageRow(
+    "build-type",
     _defines_messages,
     "{name} defines messages of its own, so it is not a Python package: CMake and a compiler make "
     "code from its definitions, and the course has neither until you add them.",
-    "Once, in the folder of the course:  ./environment/course add messages\nThen build again.")
+    "Once, in the folder of the course:  ./environment/course add messages\nThen build again.",
+)
 _FOR_CPP = PackageRow("build-type",
     lambda package, _: _is_for_cpp(package) and not _defines_messages(package),
     "{name} is a C++ package: the build type in its package.xml is {manifest.build_type}.",
@@ -907,6 +909,10 @@ def _is_python(_: Situation, package: Package) -> bool:
     return package.manifest.build_type == "ament_python"
 
 
+def _has_failed(seen: Situation, package: Package) -> bool:
+    return bool(seen.code) and f"Failed   <<< {package.name}" in seen.text
+
+
 def _stray_manifest(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     """Recognise a `package.xml` that makes one package of a folder that holds several."""
     above = (seen.workspace, seen.workspace / "src")
@@ -944,12 +950,8 @@ _BUILD_RULES = (
         "colcon found no package: no folder below this one contains a package.xml.",
         "Create a package in src with `ros2 pkg create` first.",
         lambda seen, *_: not seen.packages),
-    PackageRule(
-        _BUILD,
-        (_MESSAGES, _FOR_CPP),
-        _NO_BUILD_TOOLS,
-        lambda seen, package: seen.code and f"Failed   <<< {package.name}" in seen.text,
-    ),
+    PackageRule(_BUILD, (_MESSAGES,), _NO_BUILD_TOOLS, _has_failed),
+    PackageRule(_BUILD, (_FOR_CPP,), rf"{_NO_BUILD_TOOLS}|contain CMakeLists\.txt", _has_failed),
     PackageRule(_BUILD, (_SETUP_UNREADABLE,)),
     PackageRule(_BUILD, (_SETUP_NOT_CALLED,), when=_failed),
     PackageRule(

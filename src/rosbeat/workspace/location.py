@@ -2,8 +2,8 @@
 
 It is a folder `ROS2_and_RL_Tutorials` in the learner's own folder `my_course`, beside the pages, so
 that JupyterLab's file browser shows it. `rosbeat new`, which needs no checkout, makes the learner's
-own folder under any name. The variable `ROSBEAT_WORKSPACE_IN` names another folder for the workspace
-to lie in. While pages are built or tested, `ROSBEAT_STEADY_HOME` names a folder that takes the
+own folder under any name. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it to lie
+in. While pages are built or tested, `ROSBEAT_STEADY_HOME` names a folder that takes the
 place of both the checkout and the user's home: such a run starts with an empty workspace of its
 own, and what it prints names no machine and no person.
 """

@@ -334,7 +334,7 @@ def test_a_run(meaning, installed, edit, old, new, given, text):
     assert not (said and "no entry point" in said and ENTRY in said)
 
 
-STOP = """  File "/home/you/install/lib/temperature_publisher", line 25, in importlib_load_entry_point
+STOP = """  File "/home/you/temperature_publisher", line 25, in importlib_load_entry_point
     return next(matches).load()
 StopIteration"""
 
@@ -364,7 +364,7 @@ def test_an_old_program_whose_entry_point_has_gone(meaning, installed, edit, old
 # Packages for CMake.
 
 NO_CMAKE = {
-    "no package": "  By not providing \"Findament_cmake.cmake\" in CMAKE_MODULE_PATH this project",
+    "no package": '  By not providing "Findament_cmake.cmake" in CMAKE_MODULE_PATH this project',
     "no cmake": "RuntimeError: Could not find 'cmake' executable",
     "no compiler": "CMake Error: CMAKE_CXX_COMPILER not set, after EnableLanguage",
 }
@@ -405,7 +405,9 @@ def test_nothing_is_said_of_a_package_of_messages_that_fails_for_another_reason(
     meaning, with_cmake
 ):
     with_cmake("msg/Num.msg")
-    failed = "InvalidFieldDefinition: 1x\nFailed   <<< tutorial_interfaces [2s, exited with code 1]\n"
+    failed = (
+        "InvalidFieldDefinition: 1x\nFailed   <<< tutorial_interfaces [2s, exited with code 1]\n"
+    )
     assert meaning("colcon build", failed) is None
 
 
