@@ -27,6 +27,9 @@ _LOCKS = {
     "test": "course.lock",
     "site": None,
     "hub": "course.lock",
+    "messages": "course.lock",
+    "cmake": None,
+    "compiler": None,
     **{level: _TEST_WITHOUT_ROS for ros in LEVELS if ros != COURSE_ROS for level in LEVELS[ros]},
 }
 _SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]

@@ -16,13 +16,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from course_tool import installing, running
-from course_tool.layout import WORKSPACE_IN, Layout
+from course_tool import installing, messages, running
+from course_tool.layout import COURSE_ROS, WORKSPACE_IN, Layout
 from course_tool.problems import Problem, last_lines, say
 
 GIGABYTE = 10**9
@@ -31,7 +31,7 @@ FIRST_TIME = 1.5 * GIGABYTE
 REFRESH = 0.3 * GIGABYTE
 
 #: To be raised when this tool lays out an environment in another way.
-_REVISION = "5"
+_REVISION = "6"
 _ROS_DEADLINE = 60.0
 
 
@@ -60,6 +60,7 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
 
 def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     python = f"Python {platform.python_version()}"
+    added = additions(layout)
     if is_usable(layout):
         say(f"Something changed since {layout.venv.name} was made; refreshing it with {python}.")
     else:
@@ -67,12 +68,17 @@ def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
         say(f"Preparing {name} with {python}. The first time takes about a minute and 1.5 GB.")
         make(layout, environ)
     installing.fill(layout, level, environ)
+    if added:
+        added = messages.needed(layout, environ.get("PATH", os.defpath))
+        messages.install(layout, added, environ)
+    elif layout.ros == COURSE_ROS:
+        messages.write_missing(layout)
     say("  4/4  listening for a first ROS message")
     # Cleaned again: what this ROS offers is known only now that it is installed.
     fresh = running.cleaned(os.environ, layout).environ
     heard = ask_ros(layout, running.inside(fresh, layout))
     say(f"       heard after {heard['milliseconds']:.0f} ms (rclpy {heard['rclpy']})")
-    write_stamp(layout, level)
+    write_stamp(layout, level, added)
 
 
 # What must hold before anything is installed.
@@ -175,13 +181,23 @@ def _here(layout: Layout) -> list[str]:
 # The stamp.
 
 
-def fingerprint(layout: Layout, level: str) -> str:
-    """Return a hash of everything that a level's environment is made from."""
+def fingerprint(layout: Layout, level: str, added: Sequence[str] = ()) -> str:
+    """Return a hash of everything that a level's environment is made from.
+
+    Args:
+        layout: The checkout.
+        level: The level.
+        added: The locks of what was added to it.
+    """
     digest = hashlib.sha256(f"{_REVISION} {level}".encode())
     projects = [folder / "pyproject.toml" for folder in layout.own_packages]
     locks = [layout.lock(level), layout.lock("build"), layout.lock("bootstrap")]
     ours = [*installing.underlay_templates(), *installing.lab_files()]
-    for path in [*locks, *projects, *ours]:
+    more = [layout.lock(name) for name in added]
+    if added:
+        own = messages.own_package(layout).rglob("*")
+        more += [Path(messages.__file__), *sorted(path for path in own if path.is_file())]
+    for path in [*locks, *projects, *ours, *more]:
         digest.update((path.read_bytes() if path.exists() else b"") + b"\0")
     return digest.hexdigest()
 
@@ -189,6 +205,11 @@ def fingerprint(layout: Layout, level: str) -> str:
 def stamped_level(layout: Layout) -> str | None:
     """Return the level that `.venv` was completed for, or None if it was not."""
     return _stamp(layout).get("level")
+
+
+def additions(layout: Layout) -> list[str]:
+    """Return the locks of what was added to `.venv`: none, or those of `course add messages`."""
+    return list(_stamp(layout).get("added", []))
 
 
 def at_least(layout: Layout, level: str) -> str:
@@ -202,15 +223,22 @@ def is_satisfied(layout: Layout, level: str) -> bool:
     index = layout.levels.index
     if made is None or not is_usable(layout) or index(made) < index(level):
         return False
-    return bool(_stamp(layout)["fingerprint"] == fingerprint(layout, made))
+    return bool(_stamp(layout)["fingerprint"] == fingerprint(layout, made, additions(layout)))
 
 
-def write_stamp(layout: Layout, level: str) -> None:
-    """Say that the environment is complete: the whole stamp, or nothing."""
+def write_stamp(layout: Layout, level: str, added: Sequence[str] = ()) -> None:
+    """Say that the environment is complete: the whole stamp, or nothing.
+
+    Args:
+        layout: The checkout.
+        level: What it is complete for.
+        added: The locks of what was added to it.
+    """
     unfinished = layout.stamp.with_suffix(".new")
     stamp = {
         "level": level,
-        "fingerprint": fingerprint(layout, level),
+        "added": list(added),
+        "fingerprint": fingerprint(layout, level, added),
         "made_for": _here(layout),
     }
     unfinished.write_text(json.dumps(stamp) + "\n", encoding="utf-8")

@@ -168,10 +168,10 @@ def profile_variable(prefix: str | None = None, environ: Mapping[str, str] | Non
 def learners_folder() -> str:
     """Return the learner's own folder, there or not; an empty text if it could be anywhere.
 
-    `./environment/course lab` fills it in the checkout (`environment/course_tool/folder.py`); it has
-    the same place before that. In a release, the pages in `notebooks` are the learner's own. Where
-    many learners share a checkout, `ROSBEAT_MY_COURSE` names the folder of each. `rosbeat new` makes
-    it anywhere: then it is the nearest one around the folder that this process works in.
+    `./environment/course lab` fills it in the checkout (`environment/course_tool/folder.py`); it
+    has the same place before that. In a release, the pages in `notebooks` are the learner's own.
+    Where many learners share a checkout, `ROSBEAT_MY_COURSE` names the folder of each. `rosbeat
+    new` makes it anywhere: then it is the nearest one around this process's folder.
     """
     chosen = os.path.expanduser(os.environ.get("ROSBEAT_MY_COURSE", ""))
     if chosen:
