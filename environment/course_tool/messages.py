@@ -57,6 +57,9 @@ _NINJA = 'export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"\n'
 _COMPILER = (
     'export CC="${CC:-$prefix/libexec/rosbeat/cc}" CXX="${CXX:-$prefix/libexec/rosbeat/c++}"\n'
 )
+#: CMake files of the wheels look for libdl, which is empty since glibc 2.34. The compiler in a
+#: wheel brings no file of that name, so an archive without members stands in for it.
+_NO_LIBRARY = "libdl.a", "!<arch>\n"
 _TOOLS = ("cc", "c++", "ar", "ranlib")
 #: The package of the course that is built at once, and the list of its installed files.
 OWN_PACKAGE = "rosie_interfaces"
@@ -206,6 +209,9 @@ def _write_tools(layout: Layout, locks: Sequence[str], search_path: str) -> None
         for tool in _TOOLS:
             script = f'#!/bin/sh\nexec {zig} {tool} "$@"\n'
             _write(layout.venv / "libexec" / "rosbeat" / tool, script, 0o755)
+        name, content = _NO_LIBRARY
+        _write(layout.venv / "libexec" / "rosbeat" / name, content)
+        settings += 'export CMAKE_LIBRARY_PATH="$prefix/libexec/rosbeat"\n'
         settings += 'PATH="$prefix/libexec/rosbeat:$PATH"\n' + _COMPILER
     text = _CMAKE.format(
         prefix=shlex.quote(str(layout.venv)), settings=settings, cmake=shlex.quote(str(cmake))

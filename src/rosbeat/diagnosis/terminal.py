@@ -376,7 +376,7 @@ _SAYS_IT_ITSELF = {
         ("executable-misspelled", "package-misspelled", "word-misspelled", "option-misspelled"),
         r"Did you mean|' has: ",
     ),
-    "build-type": r"Did you mean",
+    "build-type": r"Did you mean|course add messages",
     "wrong-folder": re.escape(_INSIDE),
 }
 
@@ -1211,7 +1211,7 @@ _LOADING_RULES = (
     Rule(PYTHON, r"No module named '(\w+)\.(\w+)'", _not_built_yet),
     Rule(PYTHON, "No module named", _neighbor_module),
     Rule(PYTHON, r"No module named '([\w.]+)'", _from_elsewhere),
-    Rule("ros2", r"Package '([^']+)' not found", _from_elsewhere),
+    Rule("ros2", r"(?:Package|Unknown package) '([^']+)'", _from_elsewhere),
     Row("other-python", PYTHON, "",
         "The program ran with another Python than the course's, and that Python has no ROS.",
         "`which python3` shows which Python a terminal uses. Open a terminal in "

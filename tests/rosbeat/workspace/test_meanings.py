@@ -334,6 +334,15 @@ def test_a_run(meaning, installed, edit, old, new, given, text):
     assert not (said and "no entry point" in said and ENTRY in said)
 
 
+def test_a_package_that_pip_lacks_is_not_a_slip_of_typing(meaning):
+    shown = "Unknown package 'example_interfaces'\n# Did you mean 'rcl_interfaces'?\n"
+    said = meaning("ros2 interface show example_interfaces/srv/AddTwoInts", shown)
+    assert "example_interfaces is a package of ROS 2 that is not installed here" in said
+    assert "rosie_interfaces, which has AddTwoInts" in said
+    last = "ModuleNotFoundError: No module named 'example_interfaces'"
+    assert meaning("python3 client.py", traceback(last)) == said
+
+
 STOP = """  File "/home/you/temperature_publisher", line 25, in importlib_load_entry_point
     return next(matches).load()
 StopIteration"""
