@@ -129,6 +129,11 @@ ROWS = (
                     "sensor-simulator"), 1,
          BUILT + "touch install/sensor_simulator/lib/python3.11/site-packages/"
          "sensor-simulator.egg-link"),
+    Case("23 a link that failed", "not-built", _RUN,
+         _traceback("importlib.metadata.PackageNotFoundError: No package metadata was found for "
+                    "sensor-simulator"), 1,
+         BUILT + "touch install/sensor_simulator/lib/python3.11/site-packages/"
+         "sensor-simulator.egg-link install/sensor_simulator/share/sensor_simulator/package.dsv"),
     Case("23 not built", "not-built", _RUN),
     Case("23 nothing to source", "not-built", "source install/setup.bash"),
     Case("24 edited", "not-rebuilt", _RUN, _READING, 0,

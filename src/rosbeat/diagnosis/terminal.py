@@ -1033,12 +1033,31 @@ def _no_such_executable(package: Package, name: str) -> Diagnosis:
     )
 
 
-def _linked_since(seen: Situation, call: Call, _: Found) -> bool:
-    """Return whether a link has replaced the copy that this terminal was told of."""
-    return any(
-        package.installed and package.installed.linked and package.name.replace("_", "-") in lost
-        for package, _ in _asked_for(seen, call)
-        for lost in re.findall(r"PackageNotFoundError: No package metadata .+", seen.error)
+def _link_unknown(seen: Situation, call: Call, found: Found) -> Diagnosis | None:
+    """Recognize a link that has replaced the copy that this terminal was told of."""
+    installed = next(
+        (
+            package.installed
+            for package, _ in _asked_for(seen, call)
+            if package.installed and package.name.replace("_", "-") in found[0]
+        ),
+        None,
+    )
+    if installed is None or not installed.linked:
+        return None
+    if installed.unfinished:
+        return Diagnosis(
+            "not-built",
+            "The last build with `--symlink-install` failed: it removed the copy of the package, "
+            "and did not get as far as telling terminals where the package is now.",
+            "Build again, and mend what colcon prints below `stderr`. Then run "
+            "`source install/setup.bash`.",
+        )
+    return Diagnosis(
+        "not-sourced",
+        "The package is now installed as a symbolic link, but this terminal sourced the workspace "
+        "before that build.",
+        "Run `source install/setup.bash` again.",
     )
 
 
@@ -1217,11 +1236,7 @@ _LOADING_RULES = (
         "`which python3` shows which Python a terminal uses. Open a terminal in "
         "JupyterLab, or run `./environment/course shell` in the folder of the course.",
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error),
-    Row("not-sourced", _RUN, "",
-        "The package is now installed as a symbolic link, but this terminal sourced the "
-        "workspace before that build.",
-        "Run `source install/setup.bash` again.",
-        _linked_since),
+    Rule(_RUN, r"PackageNotFoundError: No package metadata .+", _link_unknown),
     PackageRule(
         _RUN,
         (*_PARTS, _NOT_INSTALLED),
