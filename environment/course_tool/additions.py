@@ -36,7 +36,8 @@ def add(layout: Layout, arguments: Sequence[str]) -> int:
         return 0
     messages.require_headers()
     disk, fetched = messages.size(locks)
-    prepare.check_space(layout.root, disk * 1.5)
+    room = f"What builds messages takes {_megabytes(disk)}, and the installer's cache some more."
+    prepare.check_space(layout.root, disk * 1.5, room)
     say(f"Adding what builds messages to {layout.venv.name}: {_megabytes(disk)} of disk, of which")
     say(f"{_megabytes(fetched)} are fetched. {_of_the_machine(locks)}")
     with prepare.exclusive(layout.environment):

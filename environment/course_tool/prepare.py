@@ -23,13 +23,14 @@ from typing import Any
 
 from course_tool import installing, messages, running
 from course_tool.layout import COURSE_ROS, WORKSPACE_IN, Layout
-from course_tool.problems import Problem, last_lines, say
+from course_tool.problems import Problem, complain, last_lines, say
 
 GIGABYTE = 10**9
 FIRST_TIME = 1.5 * GIGABYTE
 """The environment and the installer's cache, when nothing is there yet."""
 REFRESH = 0.3 * GIGABYTE
 
+_FIRST_SPACE = "ROS 2, JupyterLab and the installer's cache take about 1.5 GB the first time."
 #: To be raised when this tool lays out an environment in another way.
 _REVISION = "6"
 _ROS_DEADLINE = 60.0
@@ -69,8 +70,7 @@ def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
         make(layout, environ)
     installing.fill(layout, level, environ)
     if added:
-        added = messages.needed(layout, environ.get("PATH", os.defpath))
-        messages.install(layout, added, environ)
+        added = _added_again(layout, environ)
     elif layout.ros == COURSE_ROS:
         messages.write_missing(layout)
     say("  4/4  listening for a first ROS message")
@@ -79,6 +79,21 @@ def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     heard = ask_ros(layout, running.inside(fresh, layout))
     say(f"       heard after {heard['milliseconds']:.0f} ms (rclpy {heard['rclpy']})")
     write_stamp(layout, level, added)
+
+
+def _added_again(layout: Layout, environ: Mapping[str, str]) -> list[str]:
+    """Add what builds messages to a refreshed environment; the course starts without it, too."""
+    locks = messages.needed(layout, environ.get("PATH", os.defpath))
+    try:
+        messages.require_headers()
+        messages.install(layout, locks, environ)
+    except Problem as problem:
+        complain(problem)
+        messages.write_missing(layout)
+        say("The course goes on without what builds messages. To try again:")
+        say("  ./environment/course add messages")
+        return []
+    return locks
 
 
 # What must hold before anything is installed.
@@ -113,14 +128,23 @@ def check_writable(folder: Path) -> None:
         pass
 
 
-def check_space(folder: Path, needed: float) -> None:
-    """Refuse to start what the disk cannot hold: `needed` bytes."""
+def check_space(folder: Path, needed: float, why: str = _FIRST_SPACE) -> None:
+    """Refuse to start what the disk cannot hold.
+
+    Args:
+        folder: Where it goes.
+        needed: How many bytes it needs.
+        why: What needs them, as a sentence.
+
+    Raises:
+        Problem: If there is less room.
+    """
     free = shutil.disk_usage(folder).free
     if free < needed:
         raise Problem(
             f"There is not enough room on the disk for {folder} ({free / GIGABYTE:.1f} GB free, "
             f"{needed / GIGABYTE:.1f} needed).",
-            "ROS 2, JupyterLab and the installer's cache take about 1.5 GB the first time.",
+            why,
             "Free some space and run the same command again.",
         )
 

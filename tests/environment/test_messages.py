@@ -44,7 +44,7 @@ def machine(made, tmp_path, monkeypatch):
     monkeypatch.setattr(installing, "install", install)
     monkeypatch.setattr(installing, "for_installers", lambda layout, environ: environ)
     monkeypatch.setattr(prepare, "ask_ros", lambda *_: {"milliseconds": 1.0, "rclpy": "7"})
-    monkeypatch.setattr(prepare, "check_space", lambda folder, needed: None)
+    monkeypatch.setattr(prepare, "check_space", lambda folder, needed, why="": None)
     monkeypatch.setattr(messages, "require_headers", lambda: None)
     monkeypatch.setattr(messages.running, "with_ros", lambda environ, layout: dict(environ))
     monkeypatch.setattr(prepare, "make", lambda layout, environ: None)
@@ -114,6 +114,23 @@ def test_a_new_version_of_the_environment_keeps_it(made, machine):
     assert not prepare.is_satisfied(made, "course")
     prepare.ready(made, "course")
     assert str(made.lock("messages")) in machine[0]
+
+
+def test_a_refresh_that_cannot_add_it_again_opens_the_course_without_it(
+    made, machine, monkeypatch, capsys
+):
+    def refuse():
+        raise Problem("There is no Python.h.", "a", "b")
+
+    additions.add(made, ["messages"])
+    made.lock("course").write_text("b==2\n")
+    monkeypatch.setattr(messages, "require_headers", refuse)
+    prepare.ready(made, "course")
+    assert prepare.is_satisfied(made, "course")
+    assert prepare.additions(made) == []
+    said = capsys.readouterr()
+    assert "There is no Python.h." in said.err
+    assert "To try again:\n  ./environment/course add messages" in said.out
 
 
 def test_an_interrupted_addition_is_none(made, machine, monkeypatch):

@@ -802,8 +802,8 @@ def _defines_messages(package: Package, _: str = "") -> bool:
 _MESSAGES = PackageRow(
     "build-type",
     _defines_messages,
-    "{name} defines messages of its own, so it is not a Python package: CMake and a compiler make "
-    "code from its definitions, and the course has neither until you add them.",
+    "{name} defines messages of its own, so it is not a Python package: CMake makes code from its "
+    "definitions, with packages of ROS that the course does not have until you add them.",
     "Once, in the folder of the course:  ./environment/course add messages\nThen build again.",
 )
 _FOR_CPP = PackageRow("build-type",
@@ -811,9 +811,14 @@ _FOR_CPP = PackageRow("build-type",
     "{name} is a C++ package: the build type in its package.xml is {manifest.build_type}.",
     "`--build-type ament_python` creates a Python package. Rename the folder {name} or move it "
     "away, then create the package again with that option.")  # fmt: skip
+_NO_RCLCPP = PackageRow("build-type",
+    _is_for_cpp,
+    "{name} needs rclcpp, the library for nodes in C++, which ROS 2 from pip does not have.",
+    "Nodes in Python work here. A package of messages needs no rclcpp: take it out of its "
+    "CMakeLists.txt and package.xml.")  # fmt: skip
 _NO_BUILD_TOOLS = (
     r"Find(?:ament_cmake|rosidl_default_generators)\w*\.cmake|Could not find 'cmake'|"
-    r"CMAKE_C(?:XX)?_COMPILER\b|No CMAKE_|rclcppConfig\.cmake|Findrclcpp\.cmake"
+    r"CMAKE_C(?:XX)?_COMPILER\b|No CMAKE_"
 )
 _NOT_INSTALLED = PackageRow("packages-missing",
     lambda package, _: not package.setup.installs(package.name),
@@ -950,6 +955,7 @@ _BUILD_RULES = (
         "colcon found no package: no folder below this one contains a package.xml.",
         "Create a package in src with `ros2 pkg create` first.",
         lambda seen, *_: not seen.packages),
+    PackageRule(_BUILD, (_NO_RCLCPP,), r"Findrclcpp\w*\.cmake", _has_failed),
     PackageRule(_BUILD, (_MESSAGES,), _NO_BUILD_TOOLS, _has_failed),
     PackageRule(_BUILD, (_FOR_CPP,), rf"{_NO_BUILD_TOOLS}|contain CMakeLists\.txt", _has_failed),
     PackageRule(_BUILD, (_SETUP_UNREADABLE,)),

@@ -420,6 +420,14 @@ def test_nothing_is_said_of_a_package_of_messages_that_fails_for_another_reason(
     assert meaning("colcon build", failed) is None
 
 
+def test_a_package_of_messages_and_nodes_in_cpp_is_told_what_pip_lacks(meaning, with_cmake):
+    with_cmake("msg/Num.msg")
+    failed = 'providing "Findrclcpp.cmake"\nFailed   <<< tutorial_interfaces [0.5s, exited]\n'
+    said = meaning("colcon build", failed)
+    assert said.startswith("tutorial_interfaces needs rclcpp, the library for nodes in C++")
+    assert "add messages" not in said
+
+
 def test_a_package_in_cpp_is_told_the_build_type_of_python(meaning, with_cmake):
     with_cmake()
     failed = f"{NO_CMAKE['no package']}\nFailed   <<< tutorial_interfaces [0.5s, exited]\n"
