@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 
-from course_tool import commands, folder, testing
+from course_tool import additions, commands, folder, testing
 from course_tool.doctor import doctor
 from course_tool.hub import hub
 from course_tool.lab import lab, prepare_image, serve
@@ -24,6 +24,8 @@ Usage:  ./environment/course COMMAND [OPTIONS]
   update   take new versions of the pages that you have not worked in; for one that you have
            (update 03), take the new version with your answers in it
   shell    a bash in which ROS and the course's Python are active; -c "command" runs one command
+  add      add what builds messages of your own: add messages (5 MB; 0.5 GB without a compiler)
+  remove   take that out again: remove messages
   doctor   say what works here, with the cure for what does not
   test     check everything: lint, types, pages, tests; --thorough adds tests that take minutes;
            with other arguments, pytest alone runs with them; --ros kilted runs what concerns the
@@ -33,7 +35,7 @@ Usage:  ./environment/course COMMAND [OPTIONS]
   hub      run JupyterHub for a class on this machine: docs/jupyterhub.md
   lock     for maintainers: remake the locked versions (lock --upgrade takes newer ones)
 
-lab, test, shell, bench, site and hub first make .venv, or refresh it when the course has changed.
+All but reset, update, doctor and help first make .venv, or refresh it when the course has changed.
 ROSBEAT_PYTHON=/path/to/python3.12 chooses the Python. ROS_DOMAIN_ID=42 chooses the ROS domain.
 """
 
@@ -106,6 +108,8 @@ _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
     "reset": folder.reset,
     "update": folder.update,
     "shell": commands.shell,
+    "add": additions.add,
+    "remove": additions.remove,
     "doctor": doctor,
     "test": testing.test,
     "bench": commands.bench,

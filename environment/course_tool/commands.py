@@ -8,6 +8,7 @@ import shlex
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -26,6 +27,9 @@ _LOCKS = {
     "test": "course.lock",
     "site": None,
     "hub": "course.lock",
+    "messages": "course.lock",
+    "cmake": None,
+    "compiler": None,
     **{level: _TEST_WITHOUT_ROS for ros in LEVELS if ros != COURSE_ROS for level in LEVELS[ros]},
 }
 _SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]
@@ -35,6 +39,8 @@ def shell(layout: Layout, arguments: Sequence[str]) -> NoReturn:
     """Become a bash with the environment active; arguments are bash's own (`-c "command"`)."""
     environ = running.with_ros(prepare.ready(layout, "course"), layout)
     running.lease_domain(environ, layout)
+    with suppress(OSError):  # the folder of the workspace, before `course lab` has filled it
+        layout.learner.mkdir(parents=True, exist_ok=True)
     command = ["bash", *arguments] if arguments else interactive_shell()
     os.execvpe("bash", command, for_shells(environ, layout))
 

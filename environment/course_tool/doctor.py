@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from course_tool import prepare, running
-from course_tool.folder import SETTING, shipped_pages
-from course_tool.layout import WORKSPACE, Layout
+from course_tool.folder import shipped_pages
+from course_tool.layout import WORKSPACE, WORKSPACE_IN, Layout
 from course_tool.problems import Problem, say
 
 _LAB = "./environment/course lab"
@@ -126,14 +126,14 @@ def pages(layout: Layout) -> Finding:
 
 def workspace(layout: Layout, environ: Mapping[str, str]) -> Finding:
     """Say where the workspace of the tutorial lies, and whether it can lie there."""
-    chosen = environ.get(SETTING, "")
-    home = layout.learner if layout.notes.is_dir() else layout.root
-    parent = Path(chosen).expanduser().absolute() if chosen else home
-    if not os.access(parent, os.W_OK):
-        cure = f"make it a folder of yours, or set {SETTING} to another one"
+    chosen = environ.get(WORKSPACE_IN, "")
+    parent = Path(chosen).expanduser().absolute() if chosen else layout.learner
+    is_to_be_made = not chosen and not parent.exists()
+    if not os.access(parent.parent if is_to_be_made else parent, os.W_OK):
+        cure = f"make it a folder of yours, or set {WORKSPACE_IN} to another one"
         return Finding("problem", "workspace", f"{parent} cannot be written to", cure)
     there = "" if (parent / WORKSPACE).is_dir() else " (page 01 makes it)"
-    because = f", by {SETTING}" if chosen else ""
+    because = f", by {WORKSPACE_IN}" if chosen else ""
     return Finding("ok", "workspace", f"{parent / WORKSPACE}{there}{because}")
 
 

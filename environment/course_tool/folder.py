@@ -23,13 +23,12 @@ from uuid import uuid4
 
 from course_tool.installing import KERNEL
 from course_tool.layout import Layout
-from course_tool.prepare import check_writable, exclusive
+from course_tool.prepare import check_place, check_writable, exclusive
 from course_tool.problems import Problem, say
 
 PAGES = "[0-9][0-9]_*.ipynb"
 #: The page that shows the whole course, and how far somebody is.
 HOME = "home.ipynb"
-SETTING = "ROSBEAT_WORKSPACE_IN"
 #: What the folder is called in a solution's banner, and by the style sheet of JupyterLab.
 SOLUTIONS = "solutions"
 #: The docs that pages link to, glossary and all; JupyterLab follows no link out of its folder.
@@ -65,6 +64,7 @@ _Cell = dict[str, Any]
 
 def make(layout: Layout) -> None:
     """Make the learner's folder, or add what is new; whatever is there stays as it is."""
+    check_place(layout.learner)
     check_writable(layout.learner.parent)
     if os.path.lexists(layout.learner) and not layout.learner.is_dir():
         raise Problem(

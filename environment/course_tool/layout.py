@@ -14,6 +14,8 @@ LEVELS = {COURSE_ROS: ("course", "test"), "kilted": ("kilted",)}
 """What an environment of each distribution is for; each level contains the one before it."""
 WORKSPACE = "ROS2_and_RL_Tutorials"
 """The name of the learner's workspace."""
+WORKSPACE_IN = "ROSBEAT_WORKSPACE_IN"
+"""The variable that names another folder for the workspace to lie in."""
 LEARNERS_FOLDER = "ROSBEAT_MY_COURSE"
 """The variable that names a learner's own folder where many share one checkout, as on a hub."""
 

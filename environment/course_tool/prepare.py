@@ -16,22 +16,23 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from course_tool import installing, running
-from course_tool.layout import Layout
-from course_tool.problems import Problem, last_lines, say
+from course_tool import installing, messages, running
+from course_tool.layout import COURSE_ROS, WORKSPACE_IN, Layout
+from course_tool.problems import Problem, complain, last_lines, say
 
 GIGABYTE = 10**9
 FIRST_TIME = 1.5 * GIGABYTE
 """The environment and the installer's cache, when nothing is there yet."""
 REFRESH = 0.3 * GIGABYTE
 
+_FIRST_SPACE = "ROS 2, JupyterLab and the installer's cache take about 1.5 GB the first time."
 #: To be raised when this tool lays out an environment in another way.
-_REVISION = "5"
+_REVISION = "6"
 _ROS_DEADLINE = 60.0
 
 
@@ -41,6 +42,9 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
     Raises:
         Problem: If it cannot be made, filled, or no message arrives in it.
     """
+    check_place(layout.root)
+    check_place(layout.learner)
+    check_place(Path(os.environ.get(WORKSPACE_IN, "")))
     clean = running.cleaned(os.environ, layout)
     if not is_satisfied(layout, level):
         check_writable(layout.root)
@@ -57,6 +61,7 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
 
 def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     python = f"Python {platform.python_version()}"
+    added = additions(layout)
     if is_usable(layout):
         say(f"Something changed since {layout.venv.name} was made; refreshing it with {python}.")
     else:
@@ -64,15 +69,52 @@ def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
         say(f"Preparing {name} with {python}. The first time takes about a minute and 1.5 GB.")
         make(layout, environ)
     installing.fill(layout, level, environ)
+    if added:
+        added = _added_again(layout, environ)
+    elif layout.ros == COURSE_ROS:
+        messages.write_missing(layout)
     say("  4/4  listening for a first ROS message")
     # Cleaned again: what this ROS offers is known only now that it is installed.
     fresh = running.cleaned(os.environ, layout).environ
     heard = ask_ros(layout, running.inside(fresh, layout))
     say(f"       heard after {heard['milliseconds']:.0f} ms (rclpy {heard['rclpy']})")
-    write_stamp(layout, level)
+    write_stamp(layout, level, added)
+
+
+def _added_again(layout: Layout, environ: Mapping[str, str]) -> list[str]:
+    """Add what builds messages to a refreshed environment; the course starts without it, too."""
+    locks = messages.needed(layout, environ.get("PATH", os.defpath))
+    try:
+        messages.require_headers()
+        messages.install(layout, locks, environ)
+    except Problem as problem:
+        complain(problem)
+        messages.write_missing(layout)
+        say("The course goes on without what builds messages. To try again:")
+        say("  ./environment/course add messages")
+        return []
+    return locks
 
 
 # What must hold before anything is installed.
+
+
+def check_place(folder: Path) -> None:
+    """Refuse a folder that no list of folders, such as PATH, can name.
+
+    colcon would cut its path in two, and install what it builds somewhere else: into `.venv`.
+
+    Raises:
+        Problem: If there is a colon in its path.
+    """
+    if os.pathsep in str(folder):
+        raise Problem(
+            f"There is a `{os.pathsep}` in the path {folder}.",
+            "Linux separates the folders of a list, such as PATH, by that character, so neither\n"
+            "Python nor colcon can work in this folder. Nothing was installed or changed.",
+            f"Rename the folder, or choose another one, without a `{os.pathsep}` in its path, and "
+            "run\nthe same command again.",
+        )
 
 
 def check_writable(folder: Path) -> None:
@@ -86,14 +128,23 @@ def check_writable(folder: Path) -> None:
         pass
 
 
-def check_space(folder: Path, needed: float) -> None:
-    """Refuse to start what the disk cannot hold: `needed` bytes."""
+def check_space(folder: Path, needed: float, why: str = _FIRST_SPACE) -> None:
+    """Refuse to start what the disk cannot hold.
+
+    Args:
+        folder: Where it goes.
+        needed: How many bytes it needs.
+        why: What needs them, as a sentence.
+
+    Raises:
+        Problem: If there is less room.
+    """
     free = shutil.disk_usage(folder).free
     if free < needed:
         raise Problem(
             f"There is not enough room on the disk for {folder} ({free / GIGABYTE:.1f} GB free, "
             f"{needed / GIGABYTE:.1f} needed).",
-            "ROS 2, JupyterLab and the installer's cache take about 1.5 GB the first time.",
+            why,
             "Free some space and run the same command again.",
         )
 
@@ -154,13 +205,23 @@ def _here(layout: Layout) -> list[str]:
 # The stamp.
 
 
-def fingerprint(layout: Layout, level: str) -> str:
-    """Return a hash of everything that a level's environment is made from."""
+def fingerprint(layout: Layout, level: str, added: Sequence[str] = ()) -> str:
+    """Return a hash of everything that a level's environment is made from.
+
+    Args:
+        layout: The checkout.
+        level: The level.
+        added: The locks of what was added to it.
+    """
     digest = hashlib.sha256(f"{_REVISION} {level}".encode())
     projects = [folder / "pyproject.toml" for folder in layout.own_packages]
     locks = [layout.lock(level), layout.lock("build"), layout.lock("bootstrap")]
     ours = [*installing.underlay_templates(), *installing.lab_files()]
-    for path in [*locks, *projects, *ours]:
+    more = [layout.lock(name) for name in added]
+    if added:
+        own = messages.own_package(layout).rglob("*")
+        more += [Path(messages.__file__), *sorted(path for path in own if path.is_file())]
+    for path in [*locks, *projects, *ours, *more]:
         digest.update((path.read_bytes() if path.exists() else b"") + b"\0")
     return digest.hexdigest()
 
@@ -168,6 +229,11 @@ def fingerprint(layout: Layout, level: str) -> str:
 def stamped_level(layout: Layout) -> str | None:
     """Return the level that `.venv` was completed for, or None if it was not."""
     return _stamp(layout).get("level")
+
+
+def additions(layout: Layout) -> list[str]:
+    """Return the locks of what was added to `.venv`: none, or those of `course add messages`."""
+    return list(_stamp(layout).get("added", []))
 
 
 def at_least(layout: Layout, level: str) -> str:
@@ -181,15 +247,22 @@ def is_satisfied(layout: Layout, level: str) -> bool:
     index = layout.levels.index
     if made is None or not is_usable(layout) or index(made) < index(level):
         return False
-    return bool(_stamp(layout)["fingerprint"] == fingerprint(layout, made))
+    return bool(_stamp(layout)["fingerprint"] == fingerprint(layout, made, additions(layout)))
 
 
-def write_stamp(layout: Layout, level: str) -> None:
-    """Say that the environment is complete: the whole stamp, or nothing."""
+def write_stamp(layout: Layout, level: str, added: Sequence[str] = ()) -> None:
+    """Say that the environment is complete: the whole stamp, or nothing.
+
+    Args:
+        layout: The checkout.
+        level: What it is complete for.
+        added: The locks of what was added to it.
+    """
     unfinished = layout.stamp.with_suffix(".new")
     stamp = {
         "level": level,
-        "fingerprint": fingerprint(layout, level),
+        "added": list(added),
+        "fingerprint": fingerprint(layout, level, added),
         "made_for": _here(layout),
     }
     unfinished.write_text(json.dumps(stamp) + "\n", encoding="utf-8")

@@ -166,19 +166,21 @@ def profile_variable(prefix: str | None = None, environ: Mapping[str, str] | Non
 
 
 def learners_folder() -> str:
-    """Return the learner's own folder; an empty text if none was made yet.
+    """Return the learner's own folder, there or not; an empty text if it could be anywhere.
 
-    `./environment/course lab` makes it in the checkout (`environment/course_tool/folder.py`); in a
-    release, the pages in `notebooks` are the learner's own. Where many learners share a checkout,
-    `ROSBEAT_MY_COURSE` names the folder of each. `rosbeat new` makes it anywhere: then it is the
-    nearest one around the folder that this process works in.
+    `./environment/course lab` fills it in the checkout (`environment/course_tool/folder.py`); it
+    has the same place before that. In a release, the pages in `notebooks` are the learner's own.
+    Where many learners share a checkout, `ROSBEAT_MY_COURSE` names the folder of each. `rosbeat
+    new` makes it anywhere: then it is the nearest one around this process's folder.
     """
     chosen = os.path.expanduser(os.environ.get("ROSBEAT_MY_COURSE", ""))
     if chosen:
-        return os.path.abspath(chosen) if os.path.exists(os.path.join(chosen, ".rosbeat")) else ""
-    name = "notebooks" if _in_checkout(".rosbeat-release.json") else "my_course"
-    made = os.path.dirname(_in_checkout(name, ".rosbeat"))
-    return made or ("" if _in_checkout("notebooks") else _around_here())
+        return os.path.abspath(chosen)
+    if _in_checkout(".rosbeat-release.json"):
+        return _in_checkout("notebooks")
+    return (
+        os.path.join(_in_checkout(), "my_course") if _in_checkout("notebooks") else _around_here()
+    )
 
 
 def defaults(prefix: str | None = None) -> dict[str, str]:
@@ -307,7 +309,7 @@ def _files(profile: str) -> dict[str, str]:
 def _workspace() -> dict[str, str]:
     """Return the path of the learner's workspace (`rosbeat.workspace.location`), for terminals."""
     chosen = os.path.expanduser(os.environ.get("ROSBEAT_WORKSPACE_IN", ""))
-    parent = chosen or learners_folder() or (_in_checkout("notebooks") and _in_checkout())
+    parent = chosen or learners_folder()
     return {"ROS2_WORKSPACE": os.path.join(parent, "ROS2_and_RL_Tutorials")} if parent else {}
 
 

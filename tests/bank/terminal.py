@@ -134,12 +134,18 @@ ROWS = (
     Case("23 run from here", "not-sourced", "./install/setup.bash", before=BUILT),
     Case("23 a link since", "not-sourced", _RUN,
          _NO_METADATA, 1, BUILT + _LINKED),
+    Case("23 a link that failed", "not-built", _RUN, _NO_METADATA, 1,
+         BUILT + _LINKED.rstrip() + " install/sensor_simulator/share/sensor_simulator/package.dsv"),
     Case("23 not built", "not-built", _RUN),
     Case("23 nothing to source", "not-built", "source install/setup.bash"),
     Case("24 edited", "not-rebuilt", _RUN, _READING, 0,
          BUILT + f"echo '# more' >> {_N}/temperature_publisher.py"),
     Case("24 a new entry", "not-rebuilt", _RUN, _NO_EXECUTABLE, 1,
          BUILT + "rm install/sensor_simulator/lib/sensor_simulator/*"),
+    Case("20 renamed since a build", "entry-point-missing", _RUN, _traceback(
+             "           ^^^^\n  File \"/home/you/x\", line 25, in importlib_load_entry_point\n"
+             "    return next(matches).load()\nStopIteration"), 1,
+         BUILT + _edit("temperature_publisher = ", "talk = ")),
     Case("25 left out", "build-type", "ros2 pkg create other", place="src"),
     Case("25 for C++", "build-type", "ros2 pkg create --build-type ament_cmake other", place="src"),
     Case("25 a letter wrong", "build-type", "ros2 pkg create --build-type ament_pyhton other",

@@ -42,7 +42,10 @@ def test_a_slip_is_understood(typed, meant, capsys):
 def test_an_unknown_word_gets_the_list(capsys):
     assert cli.main(["xyzzy"]) == 1
     err = capsys.readouterr().err
-    assert "lab, reset, update, shell, doctor, test, bench, site, hub, lock and help" in err
+    assert (
+        "lab, reset, update, shell, add, remove, doctor, test, bench, site, hub, lock and help"
+        in err
+    )
     assert "variables" not in err
 
 

@@ -200,7 +200,7 @@ def test_the_learners_pages(layout):
 
 def test_where_the_workspace_lies(layout, tmp_path):
     found = doctor.workspace(layout, {})
-    assert found.text == f"{layout.root}/{WORKSPACE} (page 01 makes it)"
+    assert found.text == f"{layout.learner}/{WORKSPACE} (page 01 makes it)"
     (tmp_path / WORKSPACE).mkdir()
     found = doctor.workspace(layout, {location.SETTING: str(tmp_path)})
     assert found.text == f"{tmp_path}/{location.NAME}, by ROSBEAT_WORKSPACE_IN"

@@ -8,6 +8,8 @@ import subprocess
 import pytest
 
 from course_tool import cli, folder, installing
+from course_tool.layout import Layout
+from course_tool.problems import Problem
 
 BLANK, ANSWER = "class Sensor: ____", "class Sensor: pass"
 
@@ -344,6 +346,12 @@ def shared(committed, tmp_path, monkeypatch):
 
 def all_files(place):
     return {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
+
+
+def test_a_learners_folder_that_no_list_of_folders_can_name_is_not_made(tmp_path):
+    with pytest.raises(Problem, match="There is a `:` in the path"):
+        folder.make(Layout(tmp_path, own=tmp_path / "a:b"))
+    assert not (tmp_path / "a:b").exists()
 
 
 def test_nothing_of_a_shared_checkout_moves_into_a_learners_folder(

@@ -8,7 +8,10 @@ import pytest
 from course_tool import commands, installing, prepare
 
 FOLDER = Path(__file__).resolve().parents[2] / "environment"
-NAMES = ("bootstrap", "build", "course", "test", "hub", "kilted")
+NAMES = (
+    *("bootstrap", "build", "course", "test", "hub", "kilted"),
+    *("messages", "cmake", "compiler"),
+)
 
 
 def text_of(name):
@@ -82,6 +85,14 @@ def test_a_hub_leaves_the_versions_that_learners_have():
     assert shared <= {(name, version) for (name, _), version in learners.items()}
 
 
+def test_what_builds_messages_leaves_the_versions_that_learners_have():
+    """And what is removed with it is nothing that learners need."""
+    learners, added = pins("course"), pins("messages")
+    known = {name for name, _ in learners}
+    assert {pin for pin in added.items() if pin[0][0] in known} <= set(learners.items())
+    assert len(added) > 30
+
+
 def test_the_packages_of_ros_have_no_part_in_what_constrains_another_distribution(layout):
     layout.lock("test").write_text(
         "numpy==2.2.6 ; python_full_version < '3.11' \\\n    --hash=sha256:00\n"
@@ -109,7 +120,12 @@ def test_every_lock_is_made_and_those_of_a_distribution_last(layout, monkeypatch
     assert sorted(made) == sorted(path.stem for path in FOLDER.glob("*.lock"))
     assert made[-1] == "kilted"
     course = "course.lock"
-    assert constraints == {"test": course, "hub": course, "kilted": "numpy==2.2.6 \n"}
+    assert constraints == {
+        "test": course,
+        "hub": course,
+        "messages": course,
+        "kilted": "numpy==2.2.6 \n",
+    }
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -133,6 +133,21 @@ def test_a_full_disk_is_said_before_it_is_filled(monkeypatch, tmp_path):
     assert "0.4 GB free, 1.5 needed" in caught.value.happened
 
 
+@pytest.mark.parametrize("place", ["checkout", "ROSBEAT_MY_COURSE", "ROSBEAT_WORKSPACE_IN"])
+def test_a_path_that_no_list_can_hold_is_refused_before_anything_is_made(
+    made, work, monkeypatch, tmp_path, place
+):
+    layout = Layout(tmp_path / "a:b") if place == "checkout" else made
+    if place != "checkout":
+        monkeypatch.setenv(place, str(tmp_path / "a:b"))
+    with pytest.raises(Problem, match=r"There is a `:` in the path .*/a:b") as caught:
+        prepare.ready(layout, "course")
+    assert caught.value.means.endswith("Nothing was installed or changed.")
+    assert "Rename the folder" in caught.value.cure
+    assert work == []
+    assert not (tmp_path / "a:b").exists()
+
+
 # One command at a time.
 
 HOLD = """

@@ -16,8 +16,8 @@ from course_tool import commands, lab, layout, running
 from rosbeat.environment import learners_folder
 
 LAYOUT = layout.of_this_checkout()
-#: Where the workspace lies: in the learner's own folder, if somebody has used this checkout.
-HOME = Path(learners_folder() or LAYOUT.root)
+#: Where the workspace lies, and a terminal starts.
+HOME = Path(learners_folder())
 TOKEN = "only-for-this-test"
 ASK = 'echo "<$(command -v ros2)> <$(command -v python3)> <$ROS_DISTRO> <${PYTHONPATH-}> <$PWD>"\n'
 
@@ -36,6 +36,7 @@ alias mine='echo my own alias'
 @pytest.fixture
 def environ(tmp_path):
     """The environment of somebody whose start file puts another Python and another ROS first."""
+    HOME.mkdir(exist_ok=True)
     (tmp_path / ".bashrc").write_text(UNFRIENDLY)
     (tmp_path / "bin").mkdir()
     for name in ("python3", "ros2"):
@@ -75,6 +76,17 @@ def test_every_command_is_there_and_the_two_long_ones_complete(environ):
     assert lines[:2] == [f"{LAYOUT.venv}/bin/colcon", f"{LAYOUT.venv}/bin/rosbeat"]
     assert re.match(r"complete .* ros2$", lines[2])
     assert re.match(r"complete .* colcon$", lines[3])
+
+
+def test_a_shell_that_runs_one_command_knows_the_same_workspace():
+    launcher, ask = LAYOUT.environment / "course", 'echo "$ROS2_WORKSPACE"'
+    dropped = ("ROS2_WORKSPACE", "ROSBEAT_WORKSPACE_IN", "ROSBEAT_MY_COURSE")
+    environ = {name: value for name, value in os.environ.items() if name not in dropped}
+    done = subprocess.run(
+        [launcher, "shell", "-c", ask], env=environ, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.splitlines()[-1] == str(LAYOUT.learner / "ROS2_and_RL_Tutorials")
+    assert LAYOUT.learner.is_dir()
 
 
 def test_a_terminal_starts_where_the_workspace_lies(environ, tmp_path):

@@ -174,7 +174,7 @@ def test_without_a_checkout_around_it_only_what_a_wheel_brings_is_named(tmp_path
 @pytest.mark.parametrize(
     ("chosen", "parent"),
     [
-        ("", Path(environment.learners_folder() or MODULE.parents[2])),
+        ("", MODULE.parents[2] / "my_course"),
         ("/data", Path("/data")),
         ("~/x", Path("~/x")),
     ],
@@ -194,7 +194,7 @@ def test_terminals_know_where_the_workspace_is(monkeypatch, chosen, parent):
         ("notebooks", False),  # in a release
     ],
 )
-def test_the_workspace_is_in_the_learners_folder_once_that_is_made(
+def test_the_workspace_has_one_place_before_the_learners_folder_is_made_and_after(
     tmp_path, monkeypatch, folder, chosen
 ):
     module = installed_in(tmp_path / "src")
@@ -204,12 +204,12 @@ def test_the_workspace_is_in_the_learners_folder_once_that_is_made(
         monkeypatch.setenv("ROSBEAT_MY_COURSE", str(tmp_path / folder))
     if folder == "notebooks":
         (tmp_path / ".rosbeat-release.json").touch()
-    (tmp_path / folder).mkdir(parents=True)
-    assert module.learners_folder() == ""
-    (tmp_path / folder / ".rosbeat").mkdir()
-    assert module.learners_folder() == str(tmp_path / folder)
-    if not chosen:
-        place = f"{tmp_path / folder}/ROS2_and_RL_Tutorials"
+    (tmp_path / "notebooks").mkdir()
+    place = f"{tmp_path / folder}/ROS2_and_RL_Tutorials"
+    for made in (False, True):
+        if made:
+            (tmp_path / folder / ".rosbeat").mkdir(parents=True)
+        assert module.learners_folder() == str(tmp_path / folder)
         assert module.defaults(PREFIX)["ROS2_WORKSPACE"] == place
 
 

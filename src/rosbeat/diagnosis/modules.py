@@ -24,6 +24,13 @@ _NOT_FROM_PIP = (
     *("launch_pytest", "ros2_control", "slam_"),
     *("rqt_", "rviz", "usb_cam", "joint_state_publisher", "xacro", "urdf", "rclcpp", "examples_"),
 )
+#: What the course has in the place of such a package.
+_INSTEAD = {
+    "example_interfaces": "`./environment/course add messages` brings rosie_interfaces, which has "
+    "AddTwoInts and Fibonacci; SetBool is in std_srvs.",
+    "turtlesim": "The package rosie is in its place: `ros2 run rosie rover`.",
+    "demo_nodes_py": "The package rosie is in its place: `ros2 run rosie thermometer`.",
+}
 _PREFIXES = tuple(name for name in _NOT_FROM_PIP if name.endswith("_"))
 _SHIPPED = "`ros2 pkg list` in a terminal lists the packages that are here"
 
@@ -47,7 +54,8 @@ def about_name(module: str) -> Diagnosis | None:
             _ID,
             f"{name} is a package of ROS 2 that is not installed here: the course installs ROS "
             "with pip, which offers only a part of it.",
-            f"{_SHIPPED}. Nothing in the course needs {name}; a full installation of ROS 2 has it.",
+            f"{_SHIPPED}. {_INSTEAD.get(name) or f'Nothing in the course needs {name}.'} A full "
+            "installation of ROS 2 has it.",
         )
     return None
 

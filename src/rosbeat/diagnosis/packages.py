@@ -180,12 +180,15 @@ class Installed:
         prefix: The folder it is installed in.
         executables: The programs that `ros2 run` can start, sorted.
         linked: Whether it was built with `--symlink-install`, so that edits of modules count.
+        unfinished: Whether that build failed after it had made the link, so that no terminal is
+            told of it.
         changed: Source files, relative to the package, whose installed copy is different or absent.
     """
 
     prefix: Path
     executables: tuple[str, ...] = ()
     linked: bool = False
+    unfinished: bool = False
     changed: tuple[str, ...] = ()
 
 

@@ -17,6 +17,8 @@ from functools import cached_property
 from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
 
+from rosbeat.diagnosis.absent_programs import PATTERN as ABSENT
+from rosbeat.diagnosis.absent_programs import about_program
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.modules import about_hidden, about_name, about_neighbor
 from rosbeat.diagnosis.packages import BROKEN, NO_CALL, Package, diagnose_flaw, nearest
@@ -90,7 +92,7 @@ class Situation:
         found = []
         for words in split_commands(self.command):
             found.append(Call(words, place))
-            if words[0] == "cd":
+            if words[0] in ("cd", "pushd"):
                 place = self._after_cd(place, words)
         return tuple(found)
 
@@ -136,7 +138,7 @@ class Situation:
 
     def _after_cd(self, place: Path, words: tuple[str, ...]) -> Path:
         """Return where `cd` leads; without such a folder it fails, and stays in the same place."""
-        typed = words[1] if len(words) > 1 else "~"
+        typed = next((word for word in words[1:] if word != "--"), "~")
         first, _, rest = typed.partition("/")
         workspace = dict.fromkeys((f"${VARIABLE}", f"${{{VARIABLE}}}"), self.workspace)
         known = {"~": self.home, **workspace}
@@ -373,7 +375,7 @@ _SAYS_IT_ITSELF = {
         ("executable-misspelled", "package-misspelled", "word-misspelled", "option-misspelled"),
         r"Did you mean|' has: ",
     ),
-    "build-type": r"Did you mean",
+    "build-type": r"Did you mean|course add messages",
     "wrong-folder": re.escape(_INSIDE),
 }
 
@@ -465,6 +467,8 @@ def _cd_failed(seen: Situation, call: Call, found: Found) -> Diagnosis:
     hint = "`pwd` shows the current folder, and `ls` lists its content."
     if seen.workspace.name in PurePosixPath(path).parts:
         hint = f"Your workspace is here:  {_way_to()}"
+        if not seen.workspace.is_dir():
+            hint = f'You have no workspace yet. Page 01 creates it:  mkdir -p "${VARIABLE}/src"'
     elif meant:
         hint = f"Did you mean {shlex.quote(meant)}?"
     return Diagnosis("folder-not-found", f"There is no folder {path}{where}.", hint)
@@ -503,10 +507,6 @@ _MKDIR_RULES = (
 _KNOWN = (
     *("ros2", "colcon", "source", "mkdir", "cd", "chmod", "ls", "pwd", "cat", "cp", "mv"),
     *("echo", "python3", "python", "pip", "touch", "clear", "exit"),
-)
-_NOT_HERE = (
-    "tree|screen|tmux|git|sudo|apt|apt-get|gnome-terminal|terminator|rviz2|rqt|rqt_graph|rosdep|"
-    "htop|wget|curl|pip|python|conda|nano|gedit|vim|vi|code|emacs"
 )
 #: Short words are easily alike: `screen` is not `tree`.
 _ALIKE = 0.75
@@ -626,13 +626,7 @@ _COMMAND_RULES = (
         "This terminal cannot find {1}: the course's environment is not active in it.",
         "Open a terminal in JupyterLab, or run `./environment/course shell` in the folder of the "
         "course."),
-    Row("ros-1-command", "{1}",
-        _not_found("roscore|rosrun|rosnode|rostopic|roslaunch|catkin_make"),
-        "`{1}` is not installed here:",
-        "it belongs to ROS 1, and ROS 2 does not have it."),
-    Row("not-installed", "{1}", _not_found(_NOT_HERE),
-        "The program `{1}` is not installed here.",
-        "The course does not need it. JupyterLab's file browser opens files in an editor."),
+    Rule("{1}", _not_found(ABSENT), lambda _, __, found: about_program(found[1])),
     Rule("{1}", _not_found(), _misspelt),
 )  # fmt: skip
 _FILE_RULES: Rules = (
@@ -820,11 +814,36 @@ def _is_for_cpp(package: Package, _: str = "") -> bool:
 _STILL = (
     "Nothing new was installed, so `ros2 run` still starts the previous build, if there is one."
 )
+#: The folders of a package in which messages, services and actions are defined.
+_DEFINITIONS = ("msg/*.msg", "srv/*.srv", "action/*.action", "msg/*.idl", "srv/*.idl")
+
+
+def _defines_messages(package: Package, _: str = "") -> bool:
+    folder = package.folder
+    return _is_for_cpp(package) and any(any(folder.glob(kind)) for kind in _DEFINITIONS)
+
+
+_MESSAGES = PackageRow(
+    "build-type",
+    _defines_messages,
+    "{name} defines messages of its own, so it is not a Python package: CMake makes code from its "
+    "definitions, with packages of ROS that the course does not have until you add them.",
+    "Once, in the folder of the course:  ./environment/course add messages\nThen build again.",
+)
 _FOR_CPP = PackageRow("build-type",
-    _is_for_cpp,
+    lambda package, _: _is_for_cpp(package) and not _defines_messages(package),
     "{name} is a C++ package: the build type in its package.xml is {manifest.build_type}.",
     "`--build-type ament_python` creates a Python package. Rename the folder {name} or move it "
     "away, then create the package again with that option.")  # fmt: skip
+_NO_RCLCPP = PackageRow("build-type",
+    _is_for_cpp,
+    "{name} needs rclcpp, the library for nodes in C++, which ROS 2 from pip does not have.",
+    "Nodes in Python work here. A package of messages needs no rclcpp: take it out of its "
+    "CMakeLists.txt and package.xml.")  # fmt: skip
+_NO_BUILD_TOOLS = (
+    r"Find(?:ament_cmake|rosidl_default_generators)\w*\.cmake|Could not find 'cmake'|"
+    r"CMAKE_C(?:XX)?_COMPILER\b|No CMAKE_"
+)
 _NOT_INSTALLED = PackageRow("packages-missing",
     lambda package, _: not package.setup.installs(package.name),
     "The setup.py of {name} does not install the folder {name} with its modules: its `packages` "
@@ -919,6 +938,10 @@ def _is_python(_: Situation, package: Package) -> bool:
     return package.manifest.build_type == "ament_python"
 
 
+def _has_failed(seen: Situation, package: Package) -> bool:
+    return bool(seen.code) and f"Failed   <<< {package.name}" in seen.text
+
+
 def _stray_manifest(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     """Recognise a `package.xml` that makes one package of a folder that holds several."""
     above = (seen.workspace, seen.workspace / "src")
@@ -956,11 +979,9 @@ _BUILD_RULES = (
         "colcon found no package: no folder below this one contains a package.xml.",
         "Create a package in src with `ros2 pkg create` first.",
         lambda seen, *_: not seen.packages),
-    PackageRule(
-        _BUILD,
-        (_FOR_CPP,),
-        when=lambda seen, package: seen.code and f"Failed   <<< {package.name}" in seen.text,
-    ),
+    PackageRule(_BUILD, (_NO_RCLCPP,), r"Findrclcpp\w*\.cmake", _has_failed),
+    PackageRule(_BUILD, (_MESSAGES,), _NO_BUILD_TOOLS, _has_failed),
+    PackageRule(_BUILD, (_FOR_CPP,), rf"{_NO_BUILD_TOOLS}|contain CMakeLists\.txt", _has_failed),
     PackageRule(_BUILD, (_SETUP_UNREADABLE,)),
     PackageRule(_BUILD, (_SETUP_NOT_CALLED,), when=_failed),
     PackageRule(
@@ -977,7 +998,9 @@ _BUILD_RULES = (
         ),
     ),
     # A setup.py may name another file than the usual one, and then the build succeeds.
-    PackageRule(_BUILD, (_NO_MARKER,), when=_failed),
+    PackageRule(
+        _BUILD, (_NO_MARKER,), when=lambda seen, package: seen.code and not _is_for_cpp(package)
+    ),
     PackageRule(_BUILD, (_broken_module,)),
 )  # fmt: skip
 
@@ -1050,9 +1073,32 @@ def _lost_its_link(seen: Situation, package: Package) -> bool:
     )
 
 
-def _linked_since(seen: Situation, call: Call, _: Found) -> bool:
-    """Return whether a link has replaced the copy that this terminal was told of."""
-    return any(_lost_its_link(seen, package) for package, _ in _asked_for(seen, call))
+def _link_unknown(seen: Situation, call: Call, found: Found) -> Diagnosis | None:
+    """Recognize a link that has replaced the copy that this terminal was told of."""
+    installed = next(
+        (
+            package.installed
+            for package, _ in _asked_for(seen, call)
+            if package.installed and package.name.replace("_", "-") in found[0]
+        ),
+        None,
+    )
+    if installed is None or not installed.linked:
+        return None
+    if installed.unfinished:
+        return Diagnosis(
+            "not-built",
+            "The last build with `--symlink-install` failed: it removed the copy of the package, "
+            "and did not get as far as telling terminals where the package is now.",
+            "Build again, and mend what colcon prints below `stderr`. Then run "
+            "`source install/setup.bash`.",
+        )
+    return Diagnosis(
+        "not-sourced",
+        "The package is now installed as a symbolic link, but this terminal sourced the workspace "
+        "before that build.",
+        "Run `source install/setup.bash` again.",
+    )
 
 
 def _is_about_loading(seen: Situation, _: Package) -> bool:
@@ -1094,6 +1140,32 @@ def _edited(package: Package, name: str) -> Diagnosis | None:
     )
 
 
+def _lost_entry_point(package: Package, name: str) -> Diagnosis:
+    """Recognize a program of an earlier build, whose entry point setup.py no longer has."""
+    known = _executables(package)
+    if name in known:
+        said = f"The build in install does not have the entry point {name}, as setup.py has it."
+        return Diagnosis("not-rebuilt", said, f"{_AGAIN} Then source install/setup.bash.")
+    now = f"It has: {', '.join(known)}." if known else "It has none."
+    return Diagnosis(
+        "entry-point-missing",
+        f"setup.py no longer has an entry point {name}. `ros2 run` started the program of that "
+        "name from an earlier build: colcon leaves it in install, where it finds no function to "
+        "call.",
+        f"{now} Run one of these names, or write the old one into setup.py and build again. To "
+        f"remove the old program, delete its package from install, and build again:  "
+        f'rm -r "${VARIABLE}"/install/{package.name}'
+        if known
+        else f"{now} Write one into setup.py, 'executable = package.module:function', and build "
+        "again.",
+    )
+
+
+_GROUP_MISSPELLED = PackageRow("group-misspelled",
+    lambda package, _: package.setup.misspelled_group,
+    "setup.py lists its entry points under {setup.misspelled_group}, where `ros2 run` does not "
+    "find them.",
+    f"Compare that word with page 05, letter by letter. {_AGAIN}")  # fmt: skip
 _RUN_RULES = (
     Row("not-built", "ros2", _NO_PACKAGE,
         "The package {1} is in src, but it has not been built yet.",
@@ -1108,6 +1180,10 @@ _RUN_RULES = (
     PackageRule(
         _RUN,
         (
+            PackageRow("build-type",
+                _defines_messages,
+                "{name} defines messages, and has no programs to run.",
+                "`ros2 interface package {name}` lists them once it is built and sourced."),
             _FOR_CPP,
             *_PARTS,
             _refused_flaw,
@@ -1122,11 +1198,7 @@ _RUN_RULES = (
     PackageRule(
         _RUN,
         (
-            PackageRow("group-misspelled",
-                lambda package, _: package.setup.misspelled_group,
-                "setup.py lists its entry points under {setup.misspelled_group}, where `ros2 "
-                "run` does not find them.",
-                f"Compare that word with page 05, letter by letter. {_AGAIN}"),
+            _GROUP_MISSPELLED,
             PackageRow("entry-point-missing",
                 _is_module_only,
                 "{stem}.py is in the package, but setup.py has no entry point for it, so `ros2 "
@@ -1139,6 +1211,12 @@ _RUN_RULES = (
             _no_such_executable,
         ),
         "No executable found",
+        lambda _, package: not package.setup.incomplete,
+    ),
+    PackageRule(
+        _RUN,
+        (_GROUP_MISSPELLED, _lost_entry_point),
+        r"load_entry_point[\s\S]*\nStopIteration",
         lambda _, package: not package.setup.incomplete,
     ),
 )  # fmt: skip
@@ -1192,7 +1270,7 @@ _LOADING_RULES = (
     Rule(PYTHON, r"No module named '(\w+)\.(\w+)'", _not_built_yet),
     Rule(PYTHON, "No module named", _neighbor_module),
     Rule(PYTHON, r"No module named '([\w.]+)'", _from_elsewhere),
-    Rule("ros2", r"Package '([^']+)' not found", _from_elsewhere),
+    Rule("ros2", r"(?:Package|Unknown package) '([^']+)'", _from_elsewhere),
     Row("other-python", PYTHON, "",
         "The program ran with another Python than the course's, and that Python has no ROS.",
         "`which python3` shows which Python a terminal uses. Open a terminal in "
@@ -1200,11 +1278,7 @@ _LOADING_RULES = (
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error),
     # A build that fails leaves half of a link, and no terminal can know the rest.
     PackageRule(_RUN, (_SETUP_UNREADABLE, _refused_flaw), when=_lost_its_link),
-    Row("not-sourced", _RUN, "",
-        "The package is now installed as a symbolic link, but this terminal sourced the "
-        "workspace before that build.",
-        "Run `source install/setup.bash` again.",
-        _linked_since),
+    Rule(_RUN, r"PackageNotFoundError: No package metadata .+", _link_unknown),
     PackageRule(
         _RUN,
         (*_PARTS, _NOT_INSTALLED),

@@ -56,6 +56,8 @@ How it works, and why:
 
 from __future__ import annotations
 
+import os
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -91,6 +93,7 @@ def register(shell: InteractiveShell) -> None:
     """Make the commands of a page known to a shell; a second time changes nothing.
 
     They begin with `%`, and so do IPython's own on a page: a bare `cd` or `ls` is no command.
+    `!ros2` and `%%bash` find what a terminal finds, wherever the kernel was started from.
 
     Args:
         shell: A running IPython shell.
@@ -108,6 +111,8 @@ def register(shell: InteractiveShell) -> None:
         """Save the cell as a file of the workspace; a module of a package runs here, too."""
         import_module("rosbeat.workspace.saving_magic").save_cell(shell, line, cell)
 
+    if sys.prefix != sys.base_prefix:
+        os.environ["PATH"] = import_module("rosbeat.workspace.location").search_path()
     shell.register_magic_function(terminal, "line_cell", "terminal")
     shell.register_magic_function(save, "cell", "save")
     shell.automagic = False  # or `cd` would change the folder of the page, and not a terminal's

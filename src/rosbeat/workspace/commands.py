@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shlex
 import subprocess
+from itertools import dropwhile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -60,12 +63,11 @@ def blank_in(lines: list[str]) -> str:
     return f"there is still a blank, ____, in line {numbers[0]}" if numbers else ""
 
 
-_BUILDS = re.compile(
-    r"\s*colcon(?:\s+--log-(?:base|level)[=\s]\S+)*\s+(?:build|test)"
-    r"(?=\s|$|[;&|])(?P<options>[^;&|]*)"
-)
+_BUILDS = re.compile(r"colcon(?: --log-(?:base|level)[= ]\S+)* (?:build|test)(?= |$)")
 # Whoever names the folders knows them; help reads none.
 _CHOSEN = re.compile(r"(?<!\S)(?:--base-paths|--paths|--help|-h)(?=[\s=]|$)")
+#: Words that may stand before a program in a line.
+_BEFORE = {"sudo", "exec", "command", "time", "env", "nice", "(", "{", "!", "do", "then", "else"}
 
 
 def build_outside(line: str, folder: Path, workspace: Path, here: str) -> str:
@@ -75,24 +77,40 @@ def build_outside(line: str, folder: Path, workspace: Path, here: str) -> str:
     finds: one `cd ..` too many, and that is the whole checkout of the course.
 
     Args:
-        line: The command; only its beginning counts.
+        line: The commands; a `cd` before colcon counts.
         folder: The folder of the terminal.
         workspace: The learner's workspace.
         here: The folder as the prompt names it.
     """
-    colcon = _BUILDS.match(line)
-    if not colcon or _CHOSEN.search(colcon["options"]):
+    builds = [
+        call
+        for call in _situation(_plain(line), "", 0, folder, workspace).calls
+        if _BUILDS.match(" ".join(call.words)) and not _CHOSEN.search(" ".join(call.words))
+    ]
+    if not builds:
         return ""
-    folder, exists, workspace = folder.resolve(), workspace.is_dir(), workspace.resolve()
+    place, exists, workspace = builds[0].place.resolve(), workspace.is_dir(), workspace.resolve()
+    is_here = place == folder.resolve()
+    if os.pathsep in str(place):
+        return (
+            f"the path of `{place}` contains a `:`, which separates folders in lists such as PATH. "
+            "colcon would install the packages elsewhere. Rename that folder first."
+        )
     around = {workspace, *workspace.parents}  # a folder around the learner's own is none
-    above = (folder, *folder.parents)
+    above = (place, *place.parents)
     if workspace in above or any(_holds_package(one) for one in above if one not in around):
         return ""
     way = 'Go there first: `cd "$ROS2_WORKSPACE"`.' if exists else "Page 01 creates the workspace."
     return (
-        f"the terminal is in `{here}`, which is outside of your workspace. colcon would build "
-        f"every package below that folder. {way}"
+        f"{f'the terminal is in `{here}`' if is_here else f'the line leads to `{place}`'}, which "
+        f"is outside of your workspace. colcon would build every package below that folder. {way}"
     )
+
+
+def _plain(line: str) -> str:
+    """Return a line without the words that may stand before a program."""
+    parts = (list(dropwhile(_BEFORE.__contains__, one)) for one in terminal.commands_in(line))
+    return ";".join(shlex.join(words) for words in parts if words)
 
 
 def _holds_package(folder: Path) -> bool:
@@ -110,7 +128,6 @@ _FULL_SCREEN = (
 )
 # With one of these they print something and end.
 _PRINTS = {"--version", "--help", "-h", "-V", "-b", "-bn1"}
-_BEFORE = {"sudo", "exec", "command", "time", "(", "{", "!"}
 
 
 def full_screen(line: str) -> str:

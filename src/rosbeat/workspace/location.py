@@ -1,10 +1,9 @@
 """Locate the learner's workspace.
 
 It is a folder `ROS2_and_RL_Tutorials` in the learner's own folder `my_course`, beside the pages, so
-that JupyterLab's file browser shows it. Where `./environment/course lab` has not made that folder
-yet, it is in the checkout itself. `rosbeat new`, which needs no checkout, makes the learner's own
-folder under any name. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it
-to lie in. While pages are built or tested, `ROSBEAT_STEADY_HOME` names a folder that takes the
+that JupyterLab's file browser shows it. `rosbeat new`, which needs no checkout, makes the learner's
+own folder under any name. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it to lie
+in. While pages are built or tested, `ROSBEAT_STEADY_HOME` names a folder that takes the
 place of both the checkout and the user's home: such a run starts with an empty workspace of its
 own, and what it prints names no machine and no person.
 """
@@ -59,7 +58,14 @@ def workspace_parent() -> Path:
     chosen = os.environ.get(SETTING, "")
     if chosen:
         return Path(chosen).expanduser().resolve()
-    return Path(learners_folder() or course_root() or Path.cwd())
+    return Path(learners_folder() or Path.cwd())
+
+
+def search_path() -> str:
+    """Return the PATH with the programs of this Python's environment in front, such as `ros2`."""
+    own = str(Path(sys.prefix) / "bin")
+    rest = (os.environ.get("PATH") or os.defpath).split(os.pathsep)
+    return os.pathsep.join([own, *(folder for folder in rest if folder != own)])
 
 
 def is_a_solution(page: Path) -> bool:

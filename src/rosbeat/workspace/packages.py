@@ -475,8 +475,15 @@ def _read_installed(name: str, source: Path, root: Path) -> Installed | None:
         if (prefix / "share" / name / "package.xml").exists():
             libraries = sorted(prefix.glob("lib/python3*/site-packages"))
             linked = any(_links(library, name) for library in libraries)
+            # Sourcing reads this, and colcon writes it last.
+            told = prefix / "share" / name / "package.dsv"
+            unfinished = (
+                linked and told.exists() and "pythonpath_develop" not in told.read_text("utf-8")
+            )
             changed = () if linked else _changed(name, source, libraries)
-            return Installed(prefix, _executables(prefix / "lib" / name), linked, changed)
+            return Installed(
+                prefix, _executables(prefix / "lib" / name), linked, unfinished, changed
+            )
     return None
 
 

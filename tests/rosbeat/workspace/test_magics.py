@@ -1,5 +1,8 @@
 """`%%terminal` in a real kernel, and its options."""
 
+import subprocess
+import sys
+
 import pytest
 from IPython.core.error import UsageError
 
@@ -25,6 +28,22 @@ def kernel(started):
     for name in ("sensor", "monitor"):
         started.run(f"%terminal {name} --close")
     started.run("%%bash\nrm -rf $ROSBEAT_STEADY_HOME/*")
+
+
+PAGE = """
+import os, sys
+os.environ["PATH"] = "/usr/bin:/bin"
+from IPython.core.interactiveshell import InteractiveShell
+shell = InteractiveShell.instance()
+shell.run_line_magic("load_ext", "rosbeat")
+print(shell.getoutput("which ros2")[0], shell.getoutput("bash -c 'which colcon'")[0], sys.prefix)
+"""
+
+
+def test_a_page_finds_the_programs_of_a_terminal_wherever_its_kernel_was_started():
+    done = subprocess.run([sys.executable, "-c", PAGE], capture_output=True, text=True, check=True)
+    ros2, colcon, prefix = done.stdout.split()
+    assert (ros2, colcon) == (f"{prefix}/bin/ros2", f"{prefix}/bin/colcon")
 
 
 def test_a_page_types_into_terminals(kernel):

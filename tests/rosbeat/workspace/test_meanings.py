@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rosbeat.diagnosis import absent_programs
 from rosbeat.workspace import catch_up
 from rosbeat.workspace.commands import explain
 from rosbeat.workspace.prerequisites import NODES, PACKAGE, finished, run_command
@@ -184,6 +185,50 @@ def test_the_folder_that_was_meant(meaning, root, folder, typed, end):
     assert meaning(f"cd '{typed}'", f"bash: cd: {typed}: {NO_FILE}", 1, place).endswith(end)
 
 
+def test_a_workspace_that_is_not_there_is_not_where_to_go(meaning, root):
+    shutil.rmtree(root)
+    for typed, shown in (('"$ROS2_WORKSPACE"', root), ('"$ROS2_WORKSPACE"/src', root / "src")):
+        said = meaning(f"cd {typed}", f"bash: cd: {shown}: {NO_FILE}", 1, root.parent)
+        assert said.startswith(f"There is no folder {shown}.")
+        assert said.endswith('Page 01 creates it:  mkdir -p "$ROS2_WORKSPACE/src"')
+
+
+# Programs that are not here.
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("rosdep", "is installed already, so leave the line out"),
+        ("rqt_graph", "`viz.graph(ros)`"),
+        ("rviz2", "in 3D"),
+        ("conda", "the course has its own, which this terminal uses".capitalize()),
+        ("pip", "All Python packages of the course are installed"),
+        ("sudo", "as the administrator"),
+        ("apt-get", "leave the line out"),
+        ("curl", "use the browser"),
+        ("nano", "double-click a file"),
+        ("tmux", "`%%terminal two`"),
+        ("cmake", "./environment/course add messages"),
+        ("python", "`python3`"),
+        ("roscore", "without a master"),
+        ("rostopic", "`ros2 topic`"),
+        ("catkin_make", "`colcon build`"),
+        ("roslaunch", "`ros2 launch`"),
+    ],
+)
+def test_a_program_that_is_not_here_is_named_for_what_it_is(meaning, name, text):
+    said = meaning(f"{name} x", f"bash: {name}: command not found\n", 127)
+    assert f"`{name}`" in said
+    assert text in said
+    assert meaning(f"echo {name}", f"bash: {name}: command not found\n", 0) is None
+
+
+def test_no_program_is_said_to_be_two_things():
+    names = [name for names in absent_programs._PROGRAMS for name in names.split()]
+    assert len({*names, *absent_programs._ROS_1}) == len(names) + len(absent_programs._ROS_1)
+
+
 def test_the_folder_of_the_terminal_has_gone(meaning, root):
     gone = root / "gone"
     output = "Traceback (most recent call last):\n    os.getcwd()\nFileNotFoundError: [Errno 2] No"
@@ -287,6 +332,106 @@ def test_a_run(meaning, installed, edit, old, new, given, text):
     assert text in said if text else said is None
     # Page 05 asks for the entry point: the way, and not the answer.
     assert not (said and "no entry point" in said and ENTRY in said)
+
+
+def test_a_package_that_pip_lacks_is_not_a_slip_of_typing(meaning):
+    shown = "Unknown package 'example_interfaces'\n# Did you mean 'rcl_interfaces'?\n"
+    said = meaning("ros2 interface show example_interfaces/srv/AddTwoInts", shown)
+    assert "example_interfaces is a package of ROS 2 that is not installed here" in said
+    assert "rosie_interfaces, which has AddTwoInts" in said
+    last = "ModuleNotFoundError: No module named 'example_interfaces'"
+    assert meaning("python3 client.py", traceback(last)) == said
+
+
+STOP = """  File "/home/you/temperature_publisher", line 25, in importlib_load_entry_point
+    return next(matches).load()
+StopIteration"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "texts"),
+    [
+        ("'temperature_publisher = ", "'temperature_pub = ",
+         ["no longer has an entry point temperature_publisher",
+          "It has: temperature_pub, temperature_subscriber.",
+          'rm -r "$ROS2_WORKSPACE"/install/sensor_simulator']),
+        ("entry_points=", "entry_point=", ["entry points under entry_point,"]),
+        ("'console_scripts'", "'console_script'", ["entry points under console_script,"]),
+        ("", "", ["The build in install does not have the entry point", "colcon build"]),
+        ("'console_scripts': [", "'console_scripts': [*more(),", []),
+    ],
+)  # fmt: skip
+def test_an_old_program_whose_entry_point_has_gone(meaning, installed, edit, old, new, texts):
+    edit("setup.py", old, new)
+    said = meaning(RUN, traceback(STOP))
+    assert [text for text in texts if text not in said] == []
+    assert texts or said is None
+    assert meaning("cat notes.txt", traceback(STOP), 0) is None
+    assert meaning(RUN, traceback("StopIteration"), 1) is None  # of the node's own
+
+
+# Packages for CMake.
+
+NO_CMAKE = {
+    "no package": '  By not providing "Findament_cmake.cmake" in CMAKE_MODULE_PATH this project',
+    "no cmake": "RuntimeError: Could not find 'cmake' executable",
+    "no compiler": "CMake Error: CMAKE_CXX_COMPILER not set, after EnableLanguage",
+}
+
+
+@pytest.fixture
+def with_cmake(root):
+    """A package that CMake builds, with or without messages of its own."""
+
+    def make(*definitions):
+        folder = root / "src" / "tutorial_interfaces"
+        for path in definitions:
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).touch()
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "package.xml").write_text(
+            "<package format='3'><name>tutorial_interfaces</name><export>"
+            "<build_type>ament_cmake</build_type></export></package>"
+        )
+
+    return make
+
+
+@pytest.mark.parametrize("output", NO_CMAKE.values(), ids=NO_CMAKE)
+@pytest.mark.parametrize("path", ["msg/Num.msg", "srv/Add.srv", "action/Go.action"])
+def test_a_package_of_messages_is_told_what_builds_it(meaning, with_cmake, path, output):
+    with_cmake(path)
+    failed = f"{output}\nFailed   <<< tutorial_interfaces [0.5s, exited with code 1]\n"
+    said = meaning("colcon build", failed)
+    assert "tutorial_interfaces defines messages of its own" in said
+    assert "./environment/course add messages" in said
+    assert "ament_python" not in said
+    said = meaning("ros2 run tutorial_interfaces num", NO_EXECUTABLE)
+    assert "has no programs to run" in said
+
+
+def test_nothing_is_said_of_a_package_of_messages_that_fails_for_another_reason(
+    meaning, with_cmake
+):
+    with_cmake("msg/Num.msg")
+    failed = (
+        "InvalidFieldDefinition: 1x\nFailed   <<< tutorial_interfaces [2s, exited with code 1]\n"
+    )
+    assert meaning("colcon build", failed) is None
+
+
+def test_a_package_of_messages_and_nodes_in_cpp_is_told_what_pip_lacks(meaning, with_cmake):
+    with_cmake("msg/Num.msg")
+    failed = 'providing "Findrclcpp.cmake"\nFailed   <<< tutorial_interfaces [0.5s, exited]\n'
+    said = meaning("colcon build", failed)
+    assert said.startswith("tutorial_interfaces needs rclcpp, the library for nodes in C++")
+    assert "add messages" not in said
+
+
+def test_a_package_in_cpp_is_told_the_build_type_of_python(meaning, with_cmake):
+    with_cmake()
+    failed = f"{NO_CMAKE['no package']}\nFailed   <<< tutorial_interfaces [0.5s, exited]\n"
+    assert "`--build-type ament_python`" in meaning("colcon build", failed)
 
 
 def test_edited_and_not_rebuilt(meaning, installed, edit):

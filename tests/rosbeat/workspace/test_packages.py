@@ -290,6 +290,10 @@ def test_built_with_links(root, package, installed):
     found = read_package(package, root).installed
     assert found.linked
     assert found.changed == ()
+    hooks = installed / "share" / PACKAGE / "package.dsv"
+    for line, unfinished in (("hook/pythonpath.dsv", True), ("hook/pythonpath_develop.dsv", False)):
+        hooks.write_text(f"source;{line}\n")
+        assert read_package(package, root).installed.unfinished is unfinished
 
 
 def test_the_workspace_that_the_terminal_knows(root, package, monkeypatch, tmp_path):

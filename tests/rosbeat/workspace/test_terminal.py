@@ -191,6 +191,31 @@ def test_a_program_that_ignores_ctrl_c_can_be_killed(terminal, says):
     assert not terminal.busy
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "while true; do echo tick; sleep 0.5; done",
+        "for i in {1..1000}; do echo tick; bash -c \"trap '' INT; sleep 0.5\"; done",
+        "until false; do echo tick; /bin/true; done",
+        "echo tick; while :; do :; done",
+        "count() { while true; do echo tick; sleep 0.3; done; }; count",
+    ],
+)
+def test_a_loop_is_killed_and_not_only_the_program_that_it_is_at(terminal, command):
+    terminal.type(command, until="tick", show=str)
+    terminal.kill(show=str)
+    assert not terminal.busy
+    shown = []
+    terminal.type("echo still here", show=shown.append)
+    assert (shown[-1], terminal.exit_code) == ("still here", 0)
+
+
+def test_a_loop_that_ignores_every_request_ends_with_its_terminal(terminal):
+    terminal.type("trap '' INT; while true; do echo tick; sleep 0.1; done", until="tick", show=str)
+    terminal.kill(show=str)
+    assert terminal.ended
+
+
 def test_ctrl_d_is_never_turned_into_ctrl_c(terminal, says):
     terminal.type("sleep 100", seconds=0.1, show=str)
     with pytest.raises(TerminalError) as caught:
@@ -454,7 +479,7 @@ def folders(home):
     for package in ("src/command", "mine/src/robots/arm"):
         (home / package).mkdir(parents=True)
         (home / package / "package.xml").touch()
-    for folder in ("ROS2_and_RL_Tutorials/src/deep", "notebooks", "other/src/empty"):
+    for folder in ("ROS2_and_RL_Tutorials/src/deep", "notebooks", "other/src/empty", "a:b/src"):
         (home / folder).mkdir(parents=True)
     (home / "link").symlink_to(home / "ROS2_and_RL_Tutorials")
 
@@ -470,6 +495,17 @@ def folders(home):
         (".", "  colcon  test --event-handlers x", True),
         ("other", "colcon build;ls", True),
         ("/", "colcon --log-base l build && x --base-paths y", True),
+        # The folder may be changed in the same line.
+        (".", "cd ROS2_and_RL_Tutorials && colcon build --packages-select none", False),
+        ("ROS2_and_RL_Tutorials", "cd .. && colcon build", True),
+        ("ROS2_and_RL_Tutorials", "(cd ../notebooks; time colcon test)", True),
+        ("ROS2_and_RL_Tutorials", "pushd /tmp && colcon build", True),
+        ("ROS2_and_RL_Tutorials", "if true; then cd ..; colcon build; fi", True),
+        ("ROS2_and_RL_Tutorials", "cd .. && cd other/.. && colcon build --help", False),
+        ("ROS2_and_RL_Tutorials", "cd nowhere; colcon build --packages-select none", False),
+        (".", 'cd "$ROS2_WORKSPACE" && colcon build --packages-select none', False),
+        ("ROS2_and_RL_Tutorials", "echo 'cd ..' && echo colcon build", False),
+        ("a:b", "colcon build", True),
         ("notebooks", "colcon build --help", False),
         ("notebooks", "echo colcon build", False),
     ],

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rosbeat.workspace.location import VARIABLE as WORKSPACE
-from rosbeat.workspace.location import course_root, steady_home, workspace
+from rosbeat.workspace.location import course_root, search_path, steady_home, workspace
 from rosbeat.workspace.terminals.reaper import VARIABLE
 
 Polish = Callable[[str], str]
@@ -69,9 +69,7 @@ _DIFFERENCES = [
 def program_environment() -> dict[str, str]:
     """Return the environment of the course's programs: the kernel's, made plain."""
     environ = {name: value for name, value in os.environ.items() if name not in _DROPPED} | _PLAIN
-    own = str(Path(sys.prefix) / "bin")
-    rest = (environ.get("PATH") or os.defpath).split(os.pathsep)
-    environ["PATH"] = os.pathsep.join([own, *(one for one in rest if one != own)])
+    environ["PATH"] = search_path()
     if sys.prefix != sys.base_prefix:
         environ["VIRTUAL_ENV"] = sys.prefix
     locale = next((environ[one] for one in ("LC_ALL", "LC_CTYPE", "LANG") if environ.get(one)), "")

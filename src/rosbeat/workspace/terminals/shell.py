@@ -219,8 +219,15 @@ class Shell:
         self._signal(signal.SIGINT, group)
 
     def kill(self) -> None:
-        """Kill the program in the foreground; the shell itself if it is that."""
-        self._signal(signal.SIGKILL)
+        """Kill the program in the foreground; if that is bash itself, interrupt what it does."""
+        self._signal(signal.SIGKILL if self.foreground() else signal.SIGINT)
+
+    def break_loop(self) -> None:
+        """Interrupt bash, and kill the program that it waits for: it starts no further one."""
+        with self._changed, suppress(OSError):
+            if self.state == BUSY:
+                os.kill(self._process.pid, signal.SIGINT)
+        self.kill()
 
     def _signal(self, number: int, group: int = 0) -> None:
         with self._changed, suppress(OSError):

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
@@ -44,6 +44,8 @@ _SILENCE = 0.5
 _ENDS_SOON, _STOPS_WITHIN, _BEGINS_WITHIN = 2.0, 10.0, 5.0
 # Seconds after which Ctrl+C is pressed again if it has reached nobody.
 _AGAIN_AFTER = 0.2
+# Looks at a bash that is to end a loop, and tries to make it.
+_PATIENCE = 5
 _LAST_LINES = 5
 _HELD_AS = "_rosbeat_terminals"
 # What is looked at to explain a failure: so many lines, and characters of each.
@@ -430,13 +432,18 @@ class Terminal:
             say(show, "\n".join(map(polisher(), said.splitlines())))
 
     def _end(self, act: Callable[[], None], key: str, timeout: float, show: Show) -> int | None:
-        """End the program; press Ctrl+C again for one that it has not reached."""
+        """End the program; press Ctrl+C again for one that it has not reached.
+
+        A program that is killed does not end the loop of bash that it is part of, so bash is
+        interrupted then; if it ignores that, nothing is left but to end it.
+        """
         if not self.busy:
             say(show, f"nothing runs in the terminal `{self.name}`")
             return self._shell.code
         display = Display(new_only(self._shell.glance(self._begin).lines, show))
         before, self._place = self._shell.foreground(), self._shell.end
         deadline = time.monotonic() + timeout
+        idle = tries = 0  # looks at which bash itself was busy; loops that were broken
         with self._told():
             act()
             while self._follow(self._next_look(deadline), display, self._place) != _FINISHED:
@@ -448,6 +455,14 @@ class Terminal:
                 if key == "^C" and now not in (0, before):
                     before = now
                     self._shell.interrupt(now)
+                # Bash itself is in front while it writes its prompt, too: that is not disturbed.
+                idle = 0 if now else idle + 1
+                if not key and (now not in (0, before) or idle >= _PATIENCE):
+                    tries, idle = tries + 1, 0
+                    if tries > _PATIENCE:
+                        self.close()
+                    else:
+                        self._shell.break_loop()
         self._finish(show, always=True)
         return self._shell.code
 
@@ -582,6 +597,9 @@ class Terminals:
             self._watch_over()
             self._count += 1
             token = f"{self._mark}{self._count}."
+            if self._parent is None:
+                with suppress(OSError):  # nobody has opened the course here yet
+                    workspace_parent().mkdir(exist_ok=True)
             terminal = Terminal(name, token, self._parent or workspace_parent())
             self._open[name] = terminal
         return terminal
