@@ -17,8 +17,8 @@
 # **Time:** 45 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
 # Each process has its own memory, and by default, no other process can read it. What the nodes of two processes know of
-# each other arrives in the messages that ROS carries between them. If something from an earlier page is missing, the course creates it when the
-# first terminal opens.
+# each other arrives in the messages that ROS carries between them. If something from an earlier page is missing, the
+# course creates it when the first terminal opens.
 
 # %%
 import os

@@ -45,7 +45,7 @@ _ENDS_SOON, _STOPS_WITHIN, _BEGINS_WITHIN = 2.0, 10.0, 5.0
 # Seconds after which Ctrl+C is pressed again if it has reached nobody.
 _AGAIN_AFTER = 0.2
 # Looks at a bash that is to end a loop, and tries to make it.
-_PATIENCE = 5
+_TRIES = 5
 _LAST_LINES = 5
 _HELD_AS = "_rosbeat_terminals"
 # What is looked at to explain a failure: so many lines, and characters of each.
@@ -457,9 +457,9 @@ class Terminal:
                     self._shell.interrupt(now)
                 # Bash itself is in front while it writes its prompt, too: that is not disturbed.
                 idle = 0 if now else idle + 1
-                if not key and (now not in (0, before) or idle >= _PATIENCE):
+                if not key and (now not in (0, before) or idle >= _TRIES):
                     tries, idle = tries + 1, 0
-                    if tries > _PATIENCE:
+                    if tries > _TRIES:
                         self.close()
                     else:
                         self._shell.break_loop()
