@@ -45,6 +45,17 @@ message(FATAL_ERROR "
   # This package needs what builds messages of your own, which is not here yet.
   # Add it once, in the folder of the course:  ./environment/course add messages")
 """
+_NO_CMAKE = """\
+#!/bin/sh
+# Made by the course rosbeat: the CMake of this machine, if it has one.
+IFS=:
+for folder in $PATH; do
+    [ "$folder" = {ours} ] || [ ! -x "$folder/cmake" ] || exec "$folder/cmake" "$@"
+done
+echo "# There is no CMake here. It comes with what builds messages of your own. Add that once,
+# in the folder of the course:  ./environment/course add messages" >&2
+exit 127
+"""
 _CMAKE = """\
 #!/bin/sh
 # Made by the course rosbeat: CMake, with the ROS and the Python of this environment.
@@ -150,7 +161,6 @@ def uninstall(layout: Layout, kept: Iterable[str], environ: Mapping[str, str]) -
     repair(layout, back=True)
     for path in (_CHECKS.parents[1], Path("libexec", "rosbeat")):
         shutil.rmtree(layout.venv / path, ignore_errors=True)
-    (layout.venv / "bin" / "cmake").unlink(missing_ok=True)
     stays = {name for lock in kept for name in _names(layout, lock)}
     gone = sorted({name for lock in LOCKS for name in _names(layout, lock)} - stays)
     command: list[str | Path] = [layout.uv, "pip", "uninstall", "--python", layout.python, *gone]
@@ -162,8 +172,10 @@ def uninstall(layout: Layout, kept: Iterable[str], environ: Mapping[str, str]) -
 
 
 def write_missing(layout: Layout) -> None:
-    """Make CMake say what to add, as long as `ament_cmake` is not installed."""
+    """Make CMake, there or not, say what to add, as long as `ament_cmake` is not installed."""
     _write(layout.venv / _MISSING, _SAY_MISSING)
+    ours = layout.venv / "bin"
+    _write(ours / "cmake", _NO_CMAKE.format(ours=shlex.quote(str(ours))), 0o755)
 
 
 def _names(layout: Layout, lock: str) -> list[str]:

@@ -30,6 +30,13 @@ FIRST_TIME = 1.5 * GIGABYTE
 """The environment and the installer's cache, when nothing is there yet."""
 REFRESH = 0.3 * GIGABYTE
 
+_IN_QUOTES = "The scripts that colcon writes fail at that character, so no workspace works there."
+#: Characters that may not be in a path, each with the reason.
+_UNFIT = {
+    os.pathsep: "Linux separates the folders of a list, such as PATH, by that character, so\n"
+    "neither Python nor colcon can work in this folder.",
+    **dict.fromkeys('"`$', _IN_QUOTES),
+}
 _FIRST_SPACE = "ROS 2, JupyterLab and the installer's cache take about 1.5 GB the first time."
 #: To be raised when this tool lays out an environment in another way.
 _REVISION = "6"
@@ -100,20 +107,21 @@ def _added_again(layout: Layout, environ: Mapping[str, str]) -> list[str]:
 
 
 def check_place(folder: Path) -> None:
-    """Refuse a folder that no list of folders, such as PATH, can name.
+    """Refuse a folder in which colcon cannot build, or would build into another one.
 
-    colcon would cut its path in two, and install what it builds somewhere else: into `.venv`.
+    It would cut a path with a colon in two, and install what it builds into `.venv`. Its scripts
+    have paths in double quotes, in which other characters have a meaning of their own.
 
     Raises:
-        Problem: If there is a colon in its path.
+        Problem: If there is such a character in the path.
     """
-    if os.pathsep in str(folder):
+    sign = next((sign for sign in str(folder) if sign in _UNFIT), "")
+    if sign:
         raise Problem(
-            f"There is a `{os.pathsep}` in the path {folder}.",
-            "Linux separates the folders of a list, such as PATH, by that character, so neither\n"
-            "Python nor colcon can work in this folder. Nothing was installed or changed.",
-            f"Rename the folder, or choose another one, without a `{os.pathsep}` in its path, and "
-            "run\nthe same command again.",
+            f"There is a {sign} in the path {folder}.",
+            f"{_UNFIT[sign]}\nNothing was installed or changed.",
+            f"Rename the folder, or choose another one, without a {sign} in its path, and run\n"
+            "the same command again.",
         )
 
 

@@ -349,7 +349,7 @@ def all_files(place):
 
 
 def test_a_learners_folder_that_no_list_of_folders_can_name_is_not_made(tmp_path):
-    with pytest.raises(Problem, match="There is a `:` in the path"):
+    with pytest.raises(Problem, match="There is a : in the path"):
         folder.make(Layout(tmp_path, own=tmp_path / "a:b"))
     assert not (tmp_path / "a:b").exists()
 

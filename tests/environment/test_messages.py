@@ -213,6 +213,31 @@ def test_cmake_knows_the_environment_and_a_compiler_in_wheels(made, tmp_path):
     assert done.stdout == f"{first}zig c++ a\n"
 
 
+@pytest.mark.parametrize("is_there", [True, False])
+def test_without_the_addition_the_machines_cmake_is_used_or_the_way_to_one_named(
+    made, tmp_path, is_there
+):
+    messages.write_missing(made)
+    ours, theirs = made.venv / "bin", tmp_path / "their bin"
+    theirs.mkdir()
+    if is_there:
+        (theirs / "cmake").write_text('#!/bin/sh\necho "theirs $*"\n')
+        (theirs / "cmake").chmod(0o755)
+    done = subprocess.run(
+        ["cmake", "-S", "x y"],
+        env={"PATH": f"{ours}{os.pathsep}{theirs}"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if is_there:
+        assert (done.stdout, done.returncode) == ("theirs -S x y\n", 0)
+    else:
+        assert done.returncode == 127
+        assert done.stderr.startswith("# There is no CMake here.")
+        assert "./environment/course add messages" in done.stderr
+
+
 # For real.
 
 NEW_PACKAGE = r"""

@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -134,18 +135,24 @@ def test_a_full_disk_is_said_before_it_is_filled(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("place", ["checkout", "ROSBEAT_MY_COURSE", "ROSBEAT_WORKSPACE_IN"])
-def test_a_path_that_no_list_can_hold_is_refused_before_anything_is_made(
-    made, work, monkeypatch, tmp_path, place
+@pytest.mark.parametrize("name", ["a:b", "dol$lar", "back`tick", 'quo"te'])
+def test_a_path_in_which_colcon_cannot_build_is_refused_before_anything_is_made(
+    made, work, monkeypatch, tmp_path, place, name
 ):
-    layout = Layout(tmp_path / "a:b") if place == "checkout" else made
+    layout = Layout(tmp_path / name) if place == "checkout" else made
     if place != "checkout":
-        monkeypatch.setenv(place, str(tmp_path / "a:b"))
-    with pytest.raises(Problem, match=r"There is a `:` in the path .*/a:b") as caught:
+        monkeypatch.setenv(place, str(tmp_path / name))
+    with pytest.raises(Problem, match=re.escape(f"in the path {tmp_path / name}")) as caught:
         prepare.ready(layout, "course")
     assert caught.value.means.endswith("Nothing was installed or changed.")
     assert "Rename the folder" in caught.value.cure
     assert work == []
-    assert not (tmp_path / "a:b").exists()
+    assert not (tmp_path / name).exists()
+
+
+@pytest.mark.parametrize("name", ["my ws", "größe 工作", "quo'te", "per%cent", "ha#sh", "a=b,c"])
+def test_other_paths_are_fine(tmp_path, name):
+    prepare.check_place(tmp_path / name)
 
 
 # One command at a time.

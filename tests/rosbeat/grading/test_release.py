@@ -243,8 +243,11 @@ def test_no_line_of_an_answer_is_in_it(real_pages, files):
     lines = list(answer_lines(real_pages))
     assert len(lines) > 150
     found = {(one, name) for one, line in lines for name in texts if line in texts[name]}
-    # Every package of Python nodes names the packages that it needs.
-    manifests = ("src/rosbeat/workspace/finished/package.xml", "src/rosie/rosie/package.xml")
+    # Every package names what it is for, who maintains it, and the packages that it needs.
+    manifests = (
+        "src/rosbeat/workspace/finished/package.xml",
+        *(f"src/rosie/{name}/package.xml" for name in ("rosie", "rosie_interfaces")),
+    )
     assert found == {("02a", name) for name in manifests}
 
 
