@@ -1,6 +1,6 @@
 # ---
 # title: Create a package
-# minutes: 35
+# minutes: 30
 # needs: ["00", "01"]
 # summary: Make the package of the temperature sensor, learn what each of its files is for, build it and load it.
 # ---
@@ -14,7 +14,7 @@
 # - describe a package in its manifest (02a, 02.3);
 # - build a workspace and source it, and tell when one of the two is missing (02.2).
 #
-# **Time:** 35 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
+# **Time:** 30 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
 #
 # A [**package**](../docs/glossary.md#package) is a folder that contains code and a few files that describe it. It's
 # the smallest unit that ROS can build, install and find, and it's what people share: a camera driver is a package,

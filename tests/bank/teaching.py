@@ -23,7 +23,7 @@ DOCUMENT = ROOT / "docs" / "teaching.md"
 LESSON = 90
 #: Which pages are taught together; a page that is longer than a lesson takes several.
 TOGETHER = (
-    *(("00", "01", "02"), ("03", "04"), ("05", "06")),
+    *(("00", "01"), ("02", "03"), ("04",), ("05", "06")),
     *((page.number,) for page in PAGES if page.elective),
 )
 _SHOWN = 5

@@ -174,8 +174,14 @@ DEEDS = (
     ),
     Deed(
         "another process's domain",
-        before("import subprocess\nfound = subprocess.run(['ros2', 'topic', 'list'])", FRIDGE),
+        before(
+            "import subprocess\n"
+            "found = subprocess.run(['ros2', 'topic', 'list'], capture_output=True, text=True)\n"
+            "assert set(found.stdout.split()) <= {'/parameter_events', '/rosout'}, found",
+            FRIDGE,
+        ),
         exercise="04a",
         words="",
+        passes=True,  # the command is there, and hears nothing of what runs outside
     ),
 )

@@ -68,7 +68,7 @@ class Page:
 PAGES = (
     Page("00", "Hear the heartbeat", page_00.EXERCISES, "00_hear_the_heartbeat", 35, ()),
     Page("01", "Create a workspace", page_01.EXERCISES, "01_create_a_workspace", 35, ("00",)),
-    Page("02", "Create a package", page_02.EXERCISES, "02_create_a_package", 35, ("00", "01")),
+    Page("02", "Create a package", page_02.EXERCISES, "02_create_a_package", 30, ("00", "01")),
     Page("03", "Write a publisher", page_03.EXERCISES, "03_write_a_publisher", 60, ("00", "02")),
     Page("04", "Write a subscriber", page_04.EXERCISES, "04_write_a_subscriber", 90, ("00", "03")),
     Page("05", "Set the entry points", page_05.EXERCISES, "05_set_the_entry_points", 35,

@@ -250,9 +250,9 @@ def test_elsewhere_the_whole_course_is_shown_core_and_electives_apart(open_page)
     listed = [one.number for one in PAGES if one.number]
     assert numbers == [[*listed[:7], "The"], listed[7:]]
     rows = dict(found.tables[core])
-    assert rows["03 Write a publisher40 minutes, needs 00, 02"] == "○ 03a ○ 03b ○ 03c"
+    assert rows["03 Write a publisher60 minutes, needs 00, 02"] == "○ 03a ○ 03b ○ 03c"
     assert "✓ passed, ✗ not there yet, ○ still open" in found.paragraphs
-    assert rows["00 Hear the heartbeat20 minutes"] == "✓ 00a ✓ 00b"
+    assert rows["00 Hear the heartbeat35 minutes"] == "✓ 00a ✓ 00b"
     assert found.links["02"] == "02_create_a_package.ipynb"
 
 

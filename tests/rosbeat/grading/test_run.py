@@ -351,7 +351,7 @@ def test_a_sandbox_that_cannot_start_or_be_made_is_no_fault_of_an_answer(fakes, 
         fakes[1].never_starts = True
         with pytest.raises(GradingError) as caught:
             done(pool, "job")
-    says(caught.value, "does not start", "course doctor")
+    says(caught.value, "does not start", "rosbeat doctor")
     assert fakes[1].words == []
 
 
