@@ -55,10 +55,10 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
 def only_one(layout: Layout) -> Iterator[int | None]:
     """Hold the learner's folder for one JupyterLab; yield nothing while another one holds it.
 
-    The lock is on the hidden folder. It leaves no file, and JupyterLab inherits it: it ends with
-    the last of the two processes, however they end.
+    The lock is on a file of its own: whoever writes progress locks the hidden folder itself.
+    JupyterLab inherits the lock, which ends with the last of the two processes, however they end.
     """
-    lock = os.open(layout.notes, os.O_RDONLY)
+    lock = os.open(layout.notes / "lab.lock", os.O_RDONLY | os.O_CREAT, 0o600)
     try:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,6 +1,7 @@
 """`course lab`, with a program in the place of JupyterLab: its options, its start and its end."""
 
 import ast
+import fcntl
 import os
 import signal
 import socket
@@ -200,6 +201,17 @@ def test_a_second_one_says_where_the_first_is_even_if_that_was_killed(start, mad
     third.send_signal(signal.SIGINT)
     assert "Stopped." in third.communicate(timeout=100)[0]
     assert not (made.notes / "address").exists()
+
+
+def test_progress_can_be_written_while_the_course_is_open(start, made):
+    first = start(OPENS)
+    assert "open at" in [first.stdout.readline() for _ in range(3)][1]
+    folder = os.open(made.notes, os.O_RDONLY)
+    try:
+        # What `only_writer` of `rosbeat.workspace.saving` waits for.
+        fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    finally:
+        os.close(folder)
 
 
 def test_a_question_is_answered_while_the_course_is_open(start):
