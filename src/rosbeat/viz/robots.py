@@ -63,7 +63,7 @@ class Grid:
 
     def runs(self) -> list[tuple[float, float, float]]:
         """Return the occupied stretches of each row: left end, lower end and length, in meters."""
-        found = []
+        stretches = []
         for row in range(len(self.cells) // self.width):
             begin = None
             for column in range(self.width + 1):
@@ -73,9 +73,9 @@ class Grid:
                     begin = column
                 elif not is_occupied and begin is not None:
                     x, y = self.corner[0] + begin * self.side, self.corner[1] + row * self.side
-                    found.append((x, y, (column - begin) * self.side))
+                    stretches.append((x, y, (column - begin) * self.side))
                     begin = None
-        return found
+        return stretches
 
 
 @dataclass(frozen=True)
@@ -106,12 +106,12 @@ class Drive:
     def marked(self) -> list[Place]:
         """Return where it was at each full second, or at each tenth one of a long drive."""
         every = 1.0 if self.times[-1] - self.times[0] <= _FEW_SECONDS else 10.0
-        found, due = [], self.times[0]
+        places, due = [], self.times[0]
         for time, place in zip(self.times, self.places, strict=True):
             if time >= due - 1e-9:
-                found.append(place)
+                places.append(place)
                 due += every
-        return found
+        return places
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Return what the picture shows: the ends of both axes, in meters."""
@@ -167,9 +167,9 @@ def drive_of(samples: Sequence[Sample], name: str) -> Drive:
     """
     base = f"/{name.strip('/')}/"
     poses = [
-        one
-        for one in samples
-        if one.topic == base + _POSE and {"x", "y", "theta"} <= one.data.keys()
+        sample
+        for sample in samples
+        if sample.topic == base + _POSE and {"x", "y", "theta"} <= sample.data.keys()
     ]
     if not poses:
         raise PictureError(
@@ -181,8 +181,8 @@ def drive_of(samples: Sequence[Sample], name: str) -> Drive:
     scan, grid = _last(samples, base + _SCAN, "ranges"), _last(samples, base + _MAP, "info")
     ranges = _ranges(scan) if scan else []
     return Drive(
-        tuple(one.time for one in poses),
-        tuple((float(one.data["x"]), float(one.data["y"])) for one in poses),
+        tuple(pose.time for pose in poses),
+        tuple((float(pose.data["x"]), float(pose.data["y"])) for pose in poses),
         float(here["theta"]),
         tuple(
             (
@@ -197,8 +197,8 @@ def drive_of(samples: Sequence[Sample], name: str) -> Drive:
 
 
 def _last(samples: Sequence[Sample], topic: str, field: str) -> Mapping[str, Any] | None:
-    found = [one.data for one in samples if one.topic == topic and field in one.data]
-    return found[-1] if found else None
+    messages = [sample.data for sample in samples if sample.topic == topic and field in sample.data]
+    return messages[-1] if messages else None
 
 
 def _ranges(scan: Mapping[str, Any]) -> list[tuple[float, float]]:
